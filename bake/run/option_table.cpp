@@ -97,8 +97,7 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        texel_means(o), Use::kRare, "texel_values"},
       {"--detail", kLightmap,
        "Where light changes within texels, at contacts and edges of shadows, the cells between them are divided into "
-       "up "
-       "to so many steps a side; 1: never",
+       "up to so many steps a side; 1: never",
        detail_steps(o), Use::kRare, "detail", "radiosity.md"},
       {"--directional", kLightmap,
        "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material has a "

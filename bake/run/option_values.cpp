@@ -77,7 +77,8 @@ OptionValue texel_means(BakeOptions& o) {
 
 OptionValue detail_steps(BakeOptions& o) {
   OptionValue value =
-      choice(o.radiosity.detail, Names<std::uint32_t>{{"1", 1}, {"2", 2}, {"4", 4}, {"8", kMostDetail}});
+      choice(o.radiosity.detail,
+             Names<std::uint32_t>{{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", kMostDetail}});
   value.json = json_of(o.radiosity.detail);
   return value;
 }

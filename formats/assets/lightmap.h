@@ -53,13 +53,13 @@ struct LightmapPage {
 // Cells that meet have the same light along their common side.
 struct DetailBlock {
   std::uint32_t x = 0, y = 0;   // of its first point, less than 2^14
-  std::uint32_t log2_side = 0;  // of the steps along a side: 1 to 3
+  std::uint32_t log2_side = 0;  // of the steps along a side: 1 to 5
 
   std::uint32_t side() const { return 1u << log2_side; }
   std::uint32_t code() const { return log2_side << 28u | y << 14u | x; }
   static DetailBlock of(std::uint32_t code) { return {code & 0x3fffu, code >> 14u & 0x3fffu, code >> 28u}; }
 };
-inline constexpr std::uint32_t kMostDetail = 8;         // steps along a cell's side
+inline constexpr std::uint32_t kMostDetail = 32;        // steps along a cell's side
 inline constexpr std::uint32_t kMaxDetailSide = 16384;  // points of an image of details
 
 // Irradiance at a place of a page, uv in [0,1]: bilinear, from a cell's own points where it has some. Texels beyond the

@@ -150,7 +150,8 @@ void validate_cells(std::span<const std::uint32_t> cells, const IVec2& size, con
         x + 1 < size.x && y + 1 < size.y)
       continue;
     list.error(306,
-               "cell {} at ({}, {}): found {} steps a side from ({}, {}) on, expected 2, 4 or 8 within {} x {} points, "
+               "cell {} at ({}, {}): found {} steps a side from ({}, {}) on, expected 2, 4, 8, 16 or 32 within {} x {} "
+               "points, "
                "and texels on all its corners",
                i, x, y, block.side(), block.x, block.y, details.x, details.y);
     return;

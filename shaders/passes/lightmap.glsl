@@ -17,6 +17,7 @@ uniform bool u_directional;
 centroid in vec3 v_lightmap_uv;
 
 const float kFullyFine = 1.5;  // steps between places up to which all points show: bilinear ones are two wide
+const float kFewPlaces = 8.0;  // steps along a side up to which four places are enough, else sixteen
 
 // The finest that is known at a place, in texels from the centre of the first: between a finer cell's own points, or texels.
 vec3 finest_light(vec2 at) {
@@ -29,8 +30,9 @@ vec3 finest_light(vec2 at) {
   return textureLod(u_detail, place, 0.0).rgb;
 }
 
-// A pixel that is wider than a cell's step is averaged over four places, in a row where it is long, else in a square. Where
-// these are too few points would flicker: the cell fades to its texels until places are as far from each other as they.
+// A pixel that is wider than a cell's step is averaged over four places, in a row where it is long, else in a square; over
+// four around each of them where the cell has more than eight steps. Where these are too few points would flicker: the cell
+// fades to its texels until places are as far from each other as they.
 vec3 lightmap_at(vec2 uv) {
   vec3 light = texture(u_lightmap, uv).rgb;
   if (!u_detailed) return light;
@@ -48,11 +50,17 @@ vec3 lightmap_at(vec2 uv) {
   float apart = row ? max(0.25 * length_of_longer, length(shorter)) : 0.5 * length_of_longer;
   if (apart >= 1.0) return light;
   vec3 sum = vec3(0.0);
+  int around = side > kFewPlaces ? 4 : 1;
   for (int k = 0; k < 4; ++k) {
     vec2 place = row ? vec2(0.25 * float(k) - 0.375, 0.0) : vec2(0.5 * float(k & 1) - 0.25, 0.5 * float(k >> 1) - 0.25);
-    sum += finest_light(at + place.x * longer + place.y * shorter);
+    for (int j = 0; j < around; ++j) {
+      vec2 beside = around == 1 ? vec2(0.0) : 0.25 * vec2(float(j & 1) - 0.5, float(j >> 1) - 0.5) * (row ? vec2(0.5, 2.0) : vec2(1.0));
+      sum += finest_light(at + (place.x + beside.x) * longer + (place.y + beside.y) * shorter);
+    }
   }
-  return mix(0.25 * sum, light, clamp(log2(max(apart * side / kFullyFine, 1.0)) / log2(side / kFullyFine), 0.0, 1.0));
+  side = min(side, kFewPlaces);
+  float faded = log2(max(apart * side / kFullyFine, 1.0)) / log2(side / kFullyFine);
+  return mix(sum / float(4 * around), light, clamp(faded, 0.0, 1.0));
 }
 
 // Lightmaps hold the light of fronts: a back that is lit is a surface of its own.

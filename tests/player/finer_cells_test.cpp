@@ -9,8 +9,8 @@ using namespace testing;
 constexpr std::uint32_t kTexels = 8;
 constexpr float kEdge = 3.1f;  // from the centre of the first texel: a shadow's edge
 
-// A wall of 2 m. Texels know to which side of the edge their centres lie, cells know it to an eighth of a texel.
-Pack wall_with_an_edge() {
+// A wall of 2 m. Texels know to which side of the edge their centres lie, cells know it to a step.
+Pack wall_with_an_edge(std::uint32_t log2_side) {
   Pack pack;
   pack.materials.resize(1);
   pack.materials[0].base_color = Vec3(0.5f);
@@ -22,17 +22,17 @@ Pack wall_with_an_edge() {
   const auto light = [](float x) { return Vec3(x < kEdge ? 1000.0f : 0.0f); };
   for (std::uint32_t i = 0; i < kTexels * kTexels; ++i)
     page.irradiance.push_back(light(static_cast<float>(i % kTexels)));
-  constexpr std::uint32_t kSide = kMostDetail, kRow = kTexels * (kSide + 1);
-  page.detail_width = page.detail_height = kRow;
-  page.cell.assign(kTexels * kTexels, 0), page.detail.resize(std::size_t{kRow} * kRow);
+  const std::uint32_t side = 1u << log2_side, row = kTexels * (side + 1);
+  page.detail_width = page.detail_height = row;
+  page.cell.assign(kTexels * kTexels, 0), page.detail.resize(std::size_t{row} * row);
   for (std::uint32_t y = 0; y + 1 < kTexels; ++y)
     for (std::uint32_t x = 0; x + 1 < kTexels; ++x) {
-      const DetailBlock block{x * (kSide + 1), y * (kSide + 1), 3};
+      const DetailBlock block{x * (side + 1), y * (side + 1), log2_side};
       page.cell[y * kTexels + x] = block.code();
-      for (std::uint32_t j = 0; j <= kSide; ++j)
-        for (std::uint32_t i = 0; i <= kSide; ++i)
-          page.detail[std::size_t{block.y + j} * kRow + block.x + i] =
-              light(static_cast<float>(x) + static_cast<float>(i) / static_cast<float>(kSide));
+      for (std::uint32_t j = 0; j <= side; ++j)
+        for (std::uint32_t i = 0; i <= side; ++i)
+          page.detail[std::size_t{block.y + j} * row + block.x + i] =
+              light(static_cast<float>(x) + static_cast<float>(i) / static_cast<float>(side));
     }
   pack.lightmaps = {page};
   return pack;
@@ -40,10 +40,7 @@ Pack wall_with_an_edge() {
 
 using FinerCells = FrameTest;
 
-// A pixel of 9 cm is three steps wide and a third of a texel.
-TEST_F(FinerCells, KeepEdgesSharpWherePixelsAreWiderThanTheirSteps) {
-  const Camera camera{"c", {0, 0, 2}, {0, 0, -1}, {0, 1, 0}, 1.0f, 0};
-  const Picture picture = draw(wall_with_an_edge(), camera, 32, 24);
+void expect_a_sharp_edge(const Picture& picture) {
   const float pixel_m = 2 * 2 * std::tan(0.5f) / 24;
   const float texel_m = 2.0f / static_cast<float>(kTexels);
   const float lit = 1000 * 0.5f / kPi;
@@ -58,10 +55,19 @@ TEST_F(FinerCells, KeepEdgesSharpWherePixelsAreWiderThanTheirSteps) {
   EXPECT_NEAR(sum, wanted, 0.25 * double{lit}) << "a quarter of a pixel: four places share it";
 }
 
+// A pixel of 9 cm is three steps wide, or eleven, and a third of a texel.
+TEST_F(FinerCells, KeepEdgesSharpWherePixelsAreWiderThanTheirSteps) {
+  const Camera camera{"c", {0, 0, 2}, {0, 0, -1}, {0, 1, 0}, 1.0f, 0};
+  for (const std::uint32_t log2_side : {3u, 5u}) {
+    SCOPED_TRACE(log2_side);
+    expect_a_sharp_edge(draw(wall_with_an_edge(log2_side), camera, 32, 24));
+  }
+}
+
 // Where a texel is smaller than a pixel the cells are gone, and with them what would flicker.
 TEST_F(FinerCells, FadeToTexelsFarAway) {
   const Camera camera{"c", {0, 0, 20}, {0, 0, -1}, {0, 1, 0}, 1.0f, 0};
-  const Pack pack = wall_with_an_edge();
+  const Pack pack = wall_with_an_edge(5);
   Pack plain = pack;
   plain.lightmaps[0].cell.clear(), plain.lightmaps[0].detail.clear();
   plain.lightmaps[0].detail_width = plain.lightmaps[0].detail_height = 0;

@@ -98,7 +98,7 @@ export function readPage(r: ByteReader): Page {
     for (const code of page.cells) {
       const side = code >>> 28;
       if (code === 0) continue;
-      if (side < 1 || side > 3 || (code & 0x3fff) + (1 << side) >= detailWidth || ((code >>> 14) & 0x3fff) + (1 << side) >= detailHeight)
+      if (side < 1 || side > 5 || (code & 0x3fff) + (1 << side) >= detailWidth || ((code >>> 14) & 0x3fff) + (1 << side) >= detailHeight)
         r.fail('found a cell outside of the image of details');
     }
     page.detail = halves(r, detailWidth * detailHeight, false);

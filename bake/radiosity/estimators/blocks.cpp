@@ -16,7 +16,9 @@ class PageBlocks {
       : levels_(levels), page_(page), covered_(page.state.size()) {
     for (const std::uint32_t texel : map.texel) covered_[texel] = true;
     for (std::uint8_t level = 1; level <= kDetailLevels; ++level)
-      if (points[level - 1u] != nullptr) grids_[level].emplace(page, levels, level, *points[level - 1u], page_number);
+      if (points[level - 1u] != nullptr)
+        grids_[level].emplace(page, levels, level, *points[level - 1u], page_number,
+                              level > kWholeLevel ? &*grids_[kWholeLevel] : nullptr);
   }
 
   void fill() {

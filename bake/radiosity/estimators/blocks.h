@@ -7,7 +7,8 @@
 
 namespace oriel {
 
-inline constexpr int kDetailLevels = 3;
+inline constexpr int kDetailLevels = 5;
+static_assert(1u << kDetailLevels == kMostDetail);
 
 // Fills the page's cell and detail. Where a finer cell meets one that is not, their common side shows what the coarser
 // one shows, and at a texel's centre where not all cells are finer all show the texel, so that nothing steps. Points

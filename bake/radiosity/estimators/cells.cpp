@@ -18,6 +18,7 @@ constexpr double kUntold = 0.1;    // relative, that interpolation may miss wher
 constexpr float kWhole = 0.999f;   // of a texel that is visible
 constexpr double kCoarser = 1.25;  // times the error, until there are few enough points
 constexpr float kNoise = 3;        // standard errors of a texel: what may bend by chance
+constexpr std::uint64_t kAlongAnEdge = 4;  // points a step in a cell, of those that are not lit as a whole
 constexpr std::uint32_t kNone = ~0u;
 
 // What is known of the texels of a page, by place.
@@ -121,8 +122,9 @@ class PageCells {
 };
 
 // A further level halves what is missed at an edge, for four times the points: they do most for their number where that
-// takes about three times the error.
-std::uint8_t level_for(double error, const CellGoal& goal) {
+// takes about three times the error. Points that cost an eighth are worth it from a root of an eighth of that error on.
+std::uint8_t level_for(double error, bool gathers, const CellGoal& goal) {
+  if (!gathers) error *= std::sqrt(double{kDirectPoints});
   std::uint8_t level = 1;
   for (double next = kNextLevel * goal.error; (2u << level) <= goal.most_side && error > next; next *= kNextLevel)
     ++level;
@@ -131,8 +133,10 @@ std::uint8_t level_for(double error, const CellGoal& goal) {
 
 // As CellGoal::most_points counts them, times kDirectPoints. Cells beside each other share the points between them.
 std::uint64_t points_of(std::uint8_t level, bool gathers, const CellGoal& goal) {
-  const std::uint64_t side = std::uint64_t{1} << level;
-  return level <= goal.known ? 0 : side * (side + 1) * (gathers ? kDirectPoints : 1);
+  if (level <= goal.known) return 0;
+  const std::uint64_t side = std::uint64_t{1} << std::min(level, kWholeLevel);
+  const std::uint64_t finer = level > kWholeLevel ? kAlongAnEdge << level : 0;
+  return (side * (side + 1) + finer) * (gathers ? kDirectPoints : 1);
 }
 
 // Candidates by place.
@@ -167,12 +171,12 @@ class Chooser {
       chosen.push_back(k);
     };
     for (std::uint32_t k = 0; k < found_.size(); ++k)
-      if (error_[k] > goal.error) take(k, level_for(error_[k], goal));
+      if (error_[k] > goal.error) take(k, level_for(error_[k], found_[k].gathers, goal));
     for (std::size_t next = 0; next < chosen.size(); ++next) {
       const std::uint8_t own = levels[found_[chosen[next]].page][found_[chosen[next]].place];
       for_each_beside(chosen[next], [&](std::uint32_t k) {
         if (const double nearly = error_[k] / kBeside; nearly > goal.error)
-          take(k, std::min(own, level_for(nearly, goal)));
+          take(k, std::min(own, level_for(nearly, found_[k].gathers, goal)));
       });
     }
     return levels;

@@ -9,6 +9,15 @@ namespace oriel {
 // By page and y * width + x, as LightmapPage::cell: log2 of the steps along the cell's side; 0: texels suffice.
 using CellLevels = std::vector<std::vector<std::uint8_t>>;
 
+// Cells of up to 2^kWholeLevel steps have all their points lit. Those of more have all of that level, and finer ones
+// where these differ: an edge crosses few of them.
+inline constexpr std::uint8_t kWholeLevel = 3;
+
+// Whether a cell has points of a level.
+inline bool has_points(std::uint8_t of_cell, std::uint8_t level) {
+  return level == kWholeLevel ? of_cell >= level : of_cell == level;
+}
+
 struct CellGoal {
   double error = 0;  // relative, that interpolation may miss
   double floor = 0;  // luminance, lux: what is darker is held against this

@@ -30,13 +30,13 @@ double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<con
   return all > 0 ? kFrameFloor * sum / all : 0;
 }
 
-// Places of a finer page are counted with 32 bits, and a mask of them is kept: at most 2^29, 64 MiB.
+// Places of a finer page are counted with 32 bits, and a mask of them is kept: at most 2^30, 128 MiB.
 std::uint32_t most_side(const Atlas& atlas) {
   std::uint64_t largest = 1;
   for (const AtlasPage& page : atlas.pages)
     largest = std::max(largest, (std::uint64_t{page.width} + 2) * (std::uint64_t{page.height} + 2));
   std::uint32_t side = kMostDetail;
-  while (side > 1 && largest * side * side > std::uint64_t{1} << 29u) side /= 2;
+  while (side > 1 && largest * side * side > std::uint64_t{1} << 30u) side /= 2;
   return side;
 }
 
@@ -80,8 +80,9 @@ class DetailMaker {
   }
 
   void add_all_blocks(const CellLevels& levels, std::vector<LightmapPage>& pages) const {
-    for (std::uint32_t p = 0; p < pages.size(); ++p)
-      add_blocks(task_.map[p], levels[p], p, {points_[0].get(), points_[1].get(), points_[2].get()}, pages[p]);
+    std::array<const PointLight*, kDetailLevels> points{};
+    std::ranges::transform(points_, points.begin(), &std::unique_ptr<PointLight>::get);
+    for (std::uint32_t p = 0; p < pages.size(); ++p) add_blocks(task_.map[p], levels[p], p, points, pages[p]);
   }
 
   // Of each group, from its light at the points; their noise is taken to be that of as many paths.
@@ -102,13 +103,27 @@ class DetailMaker {
   }
 
   Status light_cells(const CellLevels& levels, std::uint8_t level, double done) {
-    if (std::ranges::all_of(levels, [&](const auto& page) { return std::ranges::find(page, level) == page.end(); }))
-      return {};
+    const auto has = [&](std::uint8_t own) { return has_points(own, level); };
+    if (std::ranges::all_of(levels, [&](const auto& page) { return std::ranges::none_of(page, has); })) return {};
     task_.context.foretell("detail", done);
-    ORIEL_TRY(const DetailPoints points, list_points(task_.atlas, levels, level, task_.context));
+    ORIEL_TRY(const DetailPoints points,
+              list_points(task_.atlas, levels, level, points_wanted(levels, level), task_.context));
     ORIEL_TRY(PointLight lit, light_points(own_, known_, points, gathers_));
     points_[level - 1u] = std::make_unique<PointLight>(std::move(lit));
     return {};
+  }
+
+  // All of the levels that are lit as a whole; of finer ones those between points that differ by more than is allowed.
+  PointFilter points_wanted(const CellLevels& levels, std::uint8_t level) const {
+    if (level <= kWholeLevel) return [](auto...) { return true; };
+    auto whole = std::make_shared<std::vector<LevelGrid>>();
+    for (std::uint32_t p = 0; p < levels.size(); ++p)
+      whole->emplace_back(light_.pages[p], levels[p], kWholeLevel, *points_[kWholeLevel - 1u], p);
+    return [this, whole, level](std::uint32_t p, std::uint32_t place, std::uint32_t i, std::uint32_t j) {
+      const LightmapPage& page = light_.pages[p];
+      const Vec2 within = Vec2(i, j) / static_cast<float>(1u << level);
+      return (*whole)[p].differs_at(page, place % page.width, place / page.width, within, goal_.floor) > goal_.error;
+    };
   }
 
   // Of the candidates those that are lit, with the error that their points tell of.

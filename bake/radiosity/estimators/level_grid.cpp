@@ -14,10 +14,10 @@ constexpr float kBothNoises = 0.5f;  // times
 }  // namespace
 
 LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& levels, std::uint8_t level,
-                     const PointLight& points, std::uint32_t page_number)
+                     const PointLight& points, std::uint32_t page_number, const LevelGrid* whole)
     : side_(1u << level), width_((page.width + 2) * side_) {
   for (std::uint32_t place = 0; place < levels.size(); ++place) {
-    if (levels[place] != level) continue;
+    if (!has_points(levels[place], level)) continue;
     for (std::uint32_t j = 0; j <= side_; ++j)
       for (std::uint32_t i = 0; i <= side_; ++i) place_.push_back(number(place % page.width, place / page.width, i, j));
   }
@@ -33,9 +33,14 @@ LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& 
     own_[k] = 1;
   }
   known_ = own_;
+  if (whole != nullptr)
+    fill_from(*whole, page, levels, [&](std::uint32_t x, std::uint32_t y) {
+      return points.texels.at(page_number, static_cast<int>(x), static_cast<int>(y)) != kNoTexel;
+    });
   leave_noise();
   leave_dots();
-  for (std::uint32_t pass = 0; pass <= side_; ++pass) spread();
+  for (std::uint32_t pass = 0; pass <= side_ && spread(); ++pass) {
+  }
 }
 
 std::optional<double> LevelGrid::missed(std::uint32_t x, std::uint32_t y) const {
@@ -67,6 +72,44 @@ std::optional<LevelGrid::Missed> LevelGrid::missed_at(std::uint32_t x, std::uint
   return missed;
 }
 
+double LevelGrid::differs_at(const LightmapPage& page, std::uint32_t x, std::uint32_t y, const Vec2& within,
+                             double floor) const {
+  const Vec2 at = within * static_cast<float>(side_);
+  const auto low = UVec2(glm::max(glm::ceil(at) - 1.0f, Vec2(0))),
+             high = UVec2(glm::min(glm::floor(at) + 1.0f, Vec2(side_)));
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (std::uint32_t j = low.y; j <= high.y; ++j)
+    for (std::uint32_t i = low.x; i <= high.x; ++i) {
+      const Vec3 texels = between_texels(page, DetailPoints::fine(x, i, side_), DetailPoints::fine(y, j, side_));
+      const double light = luminance(texels + this->at(x, y, i, j));
+      least = std::min(least, light), most = std::max(most, light);
+    }
+  return (most - least) / (most + floor + 1e-30);
+}
+
+Vec3 LevelGrid::between(std::uint32_t x, std::uint32_t y, const Vec2& within) const {
+  const Vec2 at = within * static_cast<float>(side_);
+  const auto i = glm::min(UVec2(at), UVec2(side_ - 1));
+  const Vec2 f = at - Vec2(i);
+  return glm::mix(glm::mix(this->at(x, y, i.x, i.y), this->at(x, y, i.x + 1, i.y), f.x),
+                  glm::mix(this->at(x, y, i.x, i.y + 1), this->at(x, y, i.x + 1, i.y + 1), f.x), f.y);
+}
+
+// Points that were not asked for: light does not bend between those of the whole grid around them.
+void LevelGrid::fill_from(const LevelGrid& whole, const LightmapPage& page, const std::vector<std::uint8_t>& levels,
+                          const std::function<bool(std::uint32_t x, std::uint32_t y)>& is_lit) {
+  for (std::uint32_t place = 0; place < levels.size(); ++place) {
+    if (1u << levels[place] != side_) continue;
+    const std::uint32_t x = place % page.width, y = place / page.width;
+    for (std::uint32_t j = 0; j <= side_; ++j)
+      for (std::uint32_t i = 0; i <= side_; ++i) {
+        const std::size_t k = find(number(x, y, i, j));
+        if (known_[k] || is_lit(DetailPoints::fine(x, i, side_), DetailPoints::fine(y, j, side_))) continue;
+        change_[k] = whole.between(x, y, Vec2(i, j) / static_cast<float>(side_)), known_[k] = 1;
+      }
+  }
+}
+
 std::size_t LevelGrid::find(std::uint32_t place) const {
   const auto found = std::lower_bound(place_.begin(), place_.end(), place);
   return found != place_.end() && *found == place ? static_cast<std::size_t>(found - place_.begin()) : place_.size();
@@ -89,13 +132,15 @@ void LevelGrid::leave_noise() {
     });
     share[k] = squares > 0 ? std::max(0.0f, 1 - kBothNoises * chance / squares) : 0;
   }
-  for (std::size_t k = 0; k < place_.size(); ++k) change_[k] *= share[k], noise_[k] *= share[k] * share[k];
+  for (std::size_t k = 0; k < place_.size(); ++k)
+    if (own_[k]) change_[k] *= share[k], noise_[k] *= share[k] * share[k];
 }
 
 // A point alone that differs more than all around it is one lucky path: shadows are longer than a point.
 void LevelGrid::leave_dots() {
   const std::vector<Vec3> before = change_;
   for (std::size_t k = 0; k < place_.size(); ++k) {
+    if (!own_[k]) continue;
     Vec3 least(std::numeric_limits<float>::max()), most(-std::numeric_limits<float>::max());
     for_each_around(k, [&](std::size_t other) {
       if (other != k) least = glm::min(least, before[other]), most = glm::max(most, before[other]);
@@ -114,8 +159,8 @@ void LevelGrid::for_each_around(std::size_t k, const Body& body) const {
     }
 }
 
-// To points that are not known, from those beside them.
-void LevelGrid::spread() {
+// To points that are not known, from those beside them. False where there was none.
+bool LevelGrid::spread() {
   std::vector<std::pair<std::size_t, Vec3>> found;
   for (std::size_t k = 0; k < place_.size(); ++k) {
     if (known_[k]) continue;
@@ -125,6 +170,7 @@ void LevelGrid::spread() {
     if (count > 0) found.emplace_back(k, sum / count);
   }
   for (const auto& [k, change] : found) change_[k] = change, known_[k] = 1;
+  return !found.empty();
 }
 
 }  // namespace oriel

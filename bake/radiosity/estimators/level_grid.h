@@ -1,6 +1,7 @@
 // By how much the points of a page's cells of one level differ from the interpolation of its texels.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "bake/radiosity/estimators/point_light.h"
@@ -9,10 +10,11 @@ namespace oriel {
 
 class LevelGrid {
  public:
-  // levels: by place of the page; the grid is that of cells of `level`, and `points` hold theirs at least. Of what they
-  // change the share that is no noise is kept, and a point alone that differs more than all around it is none.
+  // levels: by place of the page; the grid is that of cells that have points of `level`, and `points` hold theirs. Of
+  // what they change the share that is no noise is kept, and a point alone that differs more than all around it is
+  // none. whole: of kWholeLevel, where the level is more: between its points lies what `points` do not hold.
   LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& levels, std::uint8_t level,
-            const PointLight& points, std::uint32_t page_number);
+            const PointLight& points, std::uint32_t page_number, const LevelGrid* whole = nullptr);
 
   // Of point (i, j) of the cell at (x, y), which must be of this level or beside one. Those inside something or beyond
   // the chart differ as their neighbours do.
@@ -28,6 +30,9 @@ class LevelGrid {
   };
   // The same at a place in it, of [0,1]; nothing where a point around that is not of this level.
   std::optional<Missed> missed_at(std::uint32_t x, std::uint32_t y, const Vec2& within) const;
+  // By how much light differs around a place in a cell, of [0,1], at the corners of the square of points that it lies
+  // in: relative to the most there and `floor`, luminance, lux.
+  double differs_at(const LightmapPage& page, std::uint32_t x, std::uint32_t y, const Vec2& within, double floor) const;
   std::uint32_t side() const { return side_; }
 
  private:
@@ -36,9 +41,12 @@ class LevelGrid {
   }
   std::size_t find(std::uint32_t place) const;
   Vec3 between_texels(const LightmapPage& page, std::uint32_t x, std::uint32_t y) const;
+  Vec3 between(std::uint32_t x, std::uint32_t y, const Vec2& within) const;
+  void fill_from(const LevelGrid& whole, const LightmapPage& page, const std::vector<std::uint8_t>& levels,
+                 const std::function<bool(std::uint32_t x, std::uint32_t y)>& is_lit);
   void leave_noise();
   void leave_dots();
-  void spread();
+  bool spread();
   template <class Body>
   void for_each_around(std::size_t k, const Body& body) const;
 

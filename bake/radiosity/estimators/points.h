@@ -8,7 +8,7 @@
 
 namespace oriel {
 
-// All points of the cells of one level. A point k steps from the centre of texel x is the middle of texel
+// The points of the cells of one level. A point k steps from the centre of texel x is the middle of texel
 // (x + 1) * side + k of a page with `side` times as many texels, and one more of the old ones around it.
 struct DetailPoints {
   std::uint32_t side = 0;         // steps along a cell
@@ -20,7 +20,11 @@ struct DetailPoints {
   }
 };
 
+// Whether point (i, j) of the cell at a place of a page is wanted.
+using PointFilter = std::function<bool(std::uint32_t page, std::uint32_t place, std::uint32_t i, std::uint32_t j)>;
+
 // Error kStopped.
-Result<DetailPoints> list_points(const Atlas& atlas, const CellLevels& levels, std::uint8_t level, Context& context);
+Result<DetailPoints> list_points(const Atlas& atlas, const CellLevels& levels, std::uint8_t level,
+                                 const PointFilter& wants, Context& context);
 
 }  // namespace oriel

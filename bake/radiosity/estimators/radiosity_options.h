@@ -64,8 +64,8 @@ struct RadiosityOptions {
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
   bool fit_texels = false;   // values whose interpolation has the texels' light (texels/fit_texels.h), not their means
-  std::uint32_t detail = 1;  // cached: cells between texels are divided into up to so many steps a side (1, 2, 4 or 8)
-                             // where light changes within them (cells.h)
+  std::uint32_t detail = 1;  // cached: cells between texels are divided into up to so many steps a side (a power of 2
+                             // up to 32) where light changes within them (cells.h)
   bool stitch = true;        // make light continuous over the seams of the lightmap
   bool directional = false;  // fill LightmapPage::direction
 };

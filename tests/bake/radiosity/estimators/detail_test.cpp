@@ -152,7 +152,8 @@ TEST(DetailCells, LeaveStitchedSeamsAsTheyAre) {
 // Points of a level whose light is anything, so that only joining makes it continuous.
 PointLight any_light(const Listed& floor, const CellLevels& levels, std::uint8_t level) {
   Context context;
-  const DetailPoints points = *list_points(floor.atlas, levels, level, context);
+  const DetailPoints points = *list_points(
+      floor.atlas, levels, level, [](auto...) { return true; }, context);
   PointLight lit;
   lit.texels = *list_texels({floor.transport(), points.atlas, points.map}, context);
   lit.variance.resize(lit.texels.count());
