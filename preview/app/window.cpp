@@ -22,14 +22,20 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// What draws.
+struct PreviewDevice {
+  gpu::Device device;
+  PreviewRenderer renderer;
+  DisplayPass display;
+};
+
 class PreviewWindow {
  public:
-  PreviewWindow(GlfwWindow& window, const gpu::Device& device, PreviewRenderer renderer, DisplayPass display,
-                const PreviewArguments& arguments, Context& context)
+  PreviewWindow(GlfwWindow& window, PreviewDevice by, const PreviewArguments& arguments, Context& context)
       : window_(window),
-        device_(device),
-        renderer_(std::move(renderer)),
-        display_(std::move(display)),
+        device_(by.device),
+        renderer_(std::move(by.renderer)),
+        display_(std::move(by.display)),
         arguments_(arguments),
         context_(context),
         options_(arguments.frame),
@@ -340,7 +346,7 @@ Status preview_in_window(const PreviewArguments& arguments, Context& context, Cl
     ORIEL_TRY(const gpu::Device device, gpu::open_device());
     ORIEL_TRY(PreviewRenderer renderer, PreviewRenderer::create(device));
     ORIEL_TRY(DisplayPass display, DisplayPass::create(device.dialect));
-    PreviewWindow preview(*window, device, std::move(renderer), std::move(display), arguments, context);
+    PreviewWindow preview(*window, {device, std::move(renderer), std::move(display)}, arguments, context);
     ORIEL_TRY_VOID(preview.run(started));
     hands_over = preview.hands_over();
   }
