@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "formats/core/file.h"
+#include "formats/image/comparison.h"
+#include "formats/image/display.h"
 #include "formats/image/png.h"
-#include "formats/metrics/comparison.h"
-#include "formats/metrics/display.h"
 #include "formats/query/camera_spec.h"
 #include "player/app/compare_picture.h"
 #include "player/gpu/headless.h"
