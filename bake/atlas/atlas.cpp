@@ -79,7 +79,8 @@ struct ChartedSurfaces {
 
 Status place_automatic(const ChartedSurfaces& charted, const AtlasOptions& options, const TexelDemand& demand,
                        Context& context, Atlas& atlas) {
-  const auto& [scene, surfaces] = charted;
+  const Scene& scene = charted.scene;
+  const std::vector<std::uint32_t>& surfaces = charted.surfaces;
   const bool one_page = options.resolution > 0 && options.source == AtlasOptions::Source::kAuto;
   double area = 0;
   for (const std::uint32_t s : surfaces)

@@ -91,12 +91,13 @@ struct CoarseReflections {
 };
 Result<Rate> capture_parts(const CensusInput& in, const CoarseReflections& seen_in, const RadianceMap& whole,
                            Context& context) {
-  const auto& [coarse, surroundings, paths] = seen_in;
+  const BakedScene& coarse = seen_in.coarse;
+  const ReflectedSurroundings& surroundings = seen_in.surroundings;
   std::vector<RadianceMap> strips = strips_of(whole);
   std::atomic<std::uint64_t> rays{0};
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     std::uint64_t lobe_rays = 0;
-    const Vec3 radiance = baked_radiance_with_lobes(coarse, seen, paths, context.seed, lobe_rays);
+    const Vec3 radiance = baked_radiance_with_lobes(coarse, seen, seen_in.paths, context.seed, lobe_rays);
     rays += lobe_rays;
     return radiance;
   };

@@ -32,7 +32,9 @@ struct FromEmitter {
 };
 template <class Reflect, class Pdf>
 FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const Reflect& reflect, const Pdf& pdf_of) {
-  const auto& [t, sampler, rays] = by;
+  const Transport& t = by.transport;
+  Sampler& sampler = by.sampler;
+  std::uint64_t& rays = by.rays;
   const float u = sampler.next1();
   const Vec2 v = sampler.next2();
   if (t.lights.empty()) return {};
@@ -64,7 +66,9 @@ void book(const Transport& t, LightBook::Kind kind, std::uint32_t group, const V
 template <class Reflect, class Add>
 void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mirrors, const Reflect& reflect,
                      const Add& add) {
-  const auto& [t, sampler, rays] = by;
+  const Transport& t = by.transport;
+  Sampler& sampler = by.sampler;
+  std::uint64_t& rays = by.rays;
   const VirtualLights& mirrored = t.lights.mirrored();
   if (mirrored.empty()) return;
   const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
@@ -272,7 +276,9 @@ class PathTracer {
 
 // Light from lamps and by one sampled lobe; on_diffuse: may be null.
 PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Vec3& wo, const OnDiffuse* on_diffuse) {
-  const auto& [t, sampler, rays] = by;
+  const Transport& t = by.transport;
+  Sampler& sampler = by.sampler;
+  std::uint64_t& rays = by.rays;
   PathLight light;
   if (!surface.reflects) return light;
   const Shading shading(surface, wo);

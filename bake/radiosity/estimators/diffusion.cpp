@@ -52,7 +52,8 @@ std::vector<float> diffusion_steps(float time) {
 }
 
 Flow further_flow(const Conductor& over, std::vector<Vec3> values, float time, Context& context) {
-  const auto& [graph, conductance] = over;
+  const TexelGraph& graph = over.graph;
+  const Conductance& conductance = over.conductance;
   const std::size_t n = values.size();
   std::vector<Vec3> next(n), sum(n, Vec3(0));
   // Edges conduct alike at all times: their flow is that of the sum over steps.

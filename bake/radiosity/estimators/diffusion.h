@@ -59,7 +59,8 @@ std::vector<float> diffusion_steps(float time);
 // over texels weighed by area.
 template <class V>
 std::vector<V> diffuse(const Conductor& over, std::vector<V> values, float time, Context& context) {
-  const auto& [graph, conductance] = over;
+  const TexelGraph& graph = over.graph;
+  const Conductance& conductance = over.conductance;
   std::vector<V> next(values.size());
   for (const float step : diffusion_steps(time)) {
     each_texel(context, values.size(), [&](std::size_t i) {

@@ -97,7 +97,9 @@ bool TexelPart::is_under_lamp(const Vec3& p, const Vec3& up, float reach_m, std:
 std::optional<Vec3> TexelPart::seen_beyond(const PageTexel& place, const Square& square, const Onlookers& onlookers,
                                            std::uint64_t& rays) const {
   if (!onlookers.any()) return std::nullopt;
-  const auto& [atlas, map, texel] = place;
+  const Atlas& atlas = place.atlas;
+  const TexelMapPage& map = place.map;
+  const std::size_t texel = place.texel;
   const auto& [corners, normal] = square;
   const Vec3 middle = 0.5f * (corners[0] + corners[2]) + lift_ * normal;
   const Vec3 u = corners[1] - corners[0], v = corners[3] - corners[0];
