@@ -71,8 +71,16 @@ Status check_options(const AtlasOptions& o) {
   return {};
 }
 
-Status place_automatic(const Scene& scene, const std::vector<std::uint32_t>& surfaces, const AtlasOptions& options,
-                       const TexelDemand& demand, Context& context, Atlas& atlas) {
+// Surfaces of a scene that get charts of their own.
+struct ChartedSurfaces {
+  const Scene& scene;
+  const std::vector<std::uint32_t>& surfaces;
+};
+
+Status place_automatic(const ChartedSurfaces& charted, const AtlasOptions& options, const TexelDemand& demand,
+                       Context& context, Atlas& atlas) {
+  const Scene& scene = charted.scene;
+  const std::vector<std::uint32_t>& surfaces = charted.surfaces;
   const bool one_page = options.resolution > 0 && options.source == AtlasOptions::Source::kAuto;
   double area = 0;
   for (const std::uint32_t s : surfaces)
@@ -145,7 +153,7 @@ Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Conte
     atlas.pages.push_back({side, side, true});
     ORIEL_TRY_VOID(place_uv1(scene, artist, context, atlas));
   }
-  if (!automatic.empty()) ORIEL_TRY_VOID(place_automatic(scene, automatic, options, demand, context, atlas));
+  if (!automatic.empty()) ORIEL_TRY_VOID(place_automatic({scene, automatic}, options, demand, context, atlas));
   ORIEL_TRY_VOID(measure_coverage(context, atlas));
   return atlas;
 }

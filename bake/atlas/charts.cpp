@@ -47,17 +47,21 @@ struct FaceFrame {
   float area = 0;
 };
 
+struct ChartTask {
+  const Scene& scene;
+  const ChartOptions& options;
+  Context& context;
+  std::uint32_t first = 0;  // triangle of the surface
+};
+
 class Grower {
  public:
-  Grower(const Scene& scene, const Surface& surface, const ChartOptions& options, std::span<const std::uint32_t> across,
-         std::span<const FaceFrame> frames, const Context& context)
-      : scene_(scene),
-        options_(options),
-        context_(context),
-        first_(surface.first_triangle),
+  Grower(const ChartTask& task, std::span<const std::uint32_t> across, std::span<const FaceFrame> frames)
+      : task_(task),
+        scene_(task.scene),
         across_(across),
         frame_(frames),
-        curved_cos_(std::cos(options.curved_rad)) {
+        curved_cos_(std::cos(task.options.curved_rad)) {
     state_.assign(frames.size(), kFree);
     visit_.assign(frames.size(), 0);
   }
@@ -68,11 +72,11 @@ class Grower {
     std::stable_sort(seeds.begin(), seeds.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return frame_[a].area > frame_[b].area; });
     for (const std::uint32_t seed : seeds)
-      if (!context_.stopped() && state_[seed] == kFree && frame_[seed].area > 0) try_flat(seed);
+      if (!task_.context.stopped() && state_[seed] == kFree && frame_[seed].area > 0) try_flat(seed);
     for (const std::uint32_t seed : seeds) {
-      if (context_.stopped()) break;
+      if (task_.context.stopped()) break;
       if (state_[seed] == kDone) continue;
-      if (options_.deadline->passed())
+      if (task_.options.deadline->passed())
         grow_box_side(seed);
       else
         grow_curved(seed);
@@ -107,13 +111,15 @@ class Grower {
     return faces;
   }
 
-  DVec3 corner(std::uint32_t face, int k) const { return DVec3(scene_.positions[scene_.triangles[first_ + face][k]]); }
+  DVec3 corner(std::uint32_t face, int k) const {
+    return DVec3(scene_.positions[scene_.triangles[task_.first + face][k]]);
+  }
   DVec3 normal_of(std::uint32_t face) const { return DVec3(frame_[face].normal); }
 
   void try_flat(std::uint32_t seed) {
     const DVec3 normal = normal_of(seed);
     const DVec3 origin = (corner(seed, 0) + corner(seed, 1) + corner(seed, 2)) / 3.0;
-    const double flat_cos = std::cos(options_.flat_rad), flat_tan = std::tan(options_.flat_rad);
+    const double flat_cos = std::cos(task_.options.flat_rad), flat_tan = std::tan(task_.options.flat_rad);
     const double reach = std::sqrt(static_cast<double>(frame_[seed].area));
     Faces region = grow(seed, [&](std::uint32_t, std::uint32_t to) {
       if (state_[to] == kDone) return false;
@@ -131,7 +137,7 @@ class Grower {
     });
     double area = 0;
     for (const std::uint32_t face : region) area += static_cast<double>(frame_[face].area);
-    if (area < kFlatTexels * options_.texel_m * options_.texel_m || continues_smoothly(region, normal)) {
+    if (area < kFlatTexels * task_.options.texel_m * task_.options.texel_m || continues_smoothly(region, normal)) {
       for (const std::uint32_t face : region) state_[face] = kTried;
       return;
     }
@@ -155,13 +161,13 @@ class Grower {
         if (glm::dot(normal_of(to), normal) >= curved_cos_ && shaded_alike(face, to, edge)) shaded += length;
       });
     }
-    const bool narrow = 2 * area < kNarrowTexels * options_.texel_m * outline;
+    const bool narrow = 2 * area < kNarrowTexels * task_.options.texel_m * outline;
     return smooth > 0.5 * outline || (narrow && shaded > 0.5 * outline);
   }
 
   // Whether two faces have the same shading normals at both ends of their common edge.
   bool shaded_alike(std::uint32_t face, std::uint32_t to, std::uint32_t edge) const {
-    const UVec3 &a = scene_.triangles[first_ + face], &b = scene_.triangles[first_ + to];
+    const UVec3 &a = scene_.triangles[task_.first + face], &b = scene_.triangles[task_.first + to];
     for (const std::uint32_t k : {edge % 3, (edge + 1) % 3}) {
       bool alike = false;
       for (int i = 0; i < 3; ++i)
@@ -222,10 +228,8 @@ class Grower {
     out_.push_back(std::move(region));
   }
 
+  const ChartTask& task_;
   const Scene& scene_;
-  const ChartOptions& options_;
-  const Context& context_;
-  std::uint32_t first_;
   std::span<const std::uint32_t> across_;
   std::span<const FaceFrame> frame_;  // by face
   double curved_cos_;
@@ -258,19 +262,18 @@ std::vector<std::uint32_t> cut_across(std::span<const Triangle3> corners) {
 }
 
 // Charts of a connected patch: one where it can be laid flat, else those of its parts.
-std::vector<FlatChart> flatten_parts(const Scene& scene, std::uint32_t first, Patch patch, const FlattenLimits& limits,
-                                     const ChartOptions& options, const Context& context) {
+std::vector<FlatChart> flatten_parts(const ChartTask& task, Patch patch, const FlattenLimits& limits) {
   std::vector<FlatChart> out;
   std::vector<Patch> work;
   work.push_back(std::move(patch));
-  while (!work.empty() && !context.stopped()) {
+  while (!work.empty() && !task.context.stopped()) {
     const Patch part = std::move(work.back());
     work.pop_back();
     std::vector<Triangle3> corners;
     corners.reserve(part.size());
-    for (const std::uint32_t face : part.faces) corners.push_back(triangle_corners(scene, first + face));
+    for (const std::uint32_t face : part.faces) corners.push_back(triangle_corners(task.scene, task.first + face));
     FlattenLimits now = limits;
-    now.conformal = limits.conformal && !options.deadline->passed();
+    now.conformal = limits.conformal && !task.options.deadline->passed();
     if (part.size() <= kMaxChartFaces || !now.conformal) {
       if (auto chart = flatten(part, corners, now)) {
         out.push_back(std::move(*chart));
@@ -331,9 +334,8 @@ void straighten(const MergeSurface& surface, std::vector<Region>& regions, std::
     if (owner[face] != kNoRegion) regions[owner[face]].faces.push_back(face);
 }
 
-std::vector<GrownChart> flatten_regions(const Scene& scene, std::uint32_t first, const MergeSurface& surface,
-                                        std::vector<Region>& regions, const FlattenLimits& limits,
-                                        const ChartOptions& options, Context& context) {
+std::vector<GrownChart> flatten_regions(const ChartTask& task, const MergeSurface& surface,
+                                        std::vector<Region>& regions, const FlattenLimits& limits) {
   const std::span<const std::uint32_t> across = surface.across;
   std::vector<std::uint32_t> owner(across.size() / 3, kNoRegion), slot(across.size() / 3);
   for (std::uint32_t r = 0; r < regions.size(); ++r)
@@ -341,14 +343,14 @@ std::vector<GrownChart> flatten_regions(const Scene& scene, std::uint32_t first,
   straighten(surface, regions, owner);
   std::vector<std::vector<FlatChart>> parts(regions.size());
   // Stopped: what is missing is the caller's to notice.
-  (void)parallel_for(context, "", regions.size(), [&](std::size_t r) {
+  (void)parallel_for(task.context, "", regions.size(), [&](std::size_t r) {
     if (regions[r].faces.empty()) return;
     Patch patch = make_patch(std::move(regions[r].faces), across, slot,
                              [&](std::uint32_t face) { return owner[face] == static_cast<std::uint32_t>(r); });
     FlattenLimits own = limits;
     own.conformal = regions[r].conformal;
     if (regions[r].exact) own.box_fill = 0;
-    parts[r] = flatten_parts(scene, first, std::move(patch), own, options, context);
+    parts[r] = flatten_parts(task, std::move(patch), own);
   });
   std::vector<GrownChart> charts;
   for (std::size_t r = 0; r < regions.size(); ++r)
@@ -375,7 +377,8 @@ ChartSet grow_charts(const Scene& scene, const Surface& surface, const ChartOpti
     const TriangleFrame frame = triangle_frame(scene, first + i);
     frames[i] = {Vec3(frame.normal), rounded(frame.area)};
   }
-  std::vector<Region> regions = Grower(scene, surface, options, across, frames, context).run();
+  const ChartTask task{scene, options, context, first};
+  std::vector<Region> regions = Grower(task, across, frames).run();
   const FlattenLimits limits{options.texel_m, options.stretch, kLargestStretch, options.large_m2, kBoxFill, true};
   MergeSurface whole;
   whole.across = across;
@@ -388,7 +391,7 @@ ChartSet grow_charts(const Scene& scene, const Surface& surface, const ChartOpti
   whole.tiny_area = kTinyTexels * options.texel_m * options.texel_m;
   whole.expired = [&] { return options.deadline->passed(); };
   whole.largest_area = options.merged_area_m2;
-  std::vector<GrownChart> charts = flatten_regions(scene, first, whole, regions, limits, options, context);
+  std::vector<GrownChart> charts = flatten_regions(task, whole, regions, limits);
   merge_charts(whole, limits, context, charts);
   return make_set(first, std::move(charts));
 }

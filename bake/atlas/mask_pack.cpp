@@ -204,9 +204,15 @@ std::vector<std::uint32_t> packing_order(std::span<const TexelMask> masks) {
   return order;
 }
 
+struct Packing {
+  std::span<const TexelMask> masks;
+  PackLimits limits;
+  std::span<PackedChart> charts;  // where each mask lies
+};
+
 // Fills one page; what did not fit stays in `order`. With `all`, gives up at the first that does not.
-PackedPage fill_page(std::span<const TexelMask> masks, const PackLimits& limits, std::uint32_t index, bool all,
-                     std::vector<std::uint32_t>& order, std::span<PackedChart> charts) {
+PackedPage fill_page(const Packing& packing, std::uint32_t index, bool all, std::vector<std::uint32_t>& order) {
+  const auto& [masks, limits, charts] = packing;
   Page page(limits.width, limits.height, limits.padding);
   std::vector<std::uint32_t> left;
   for (const std::uint32_t i : order) {
@@ -232,8 +238,8 @@ std::uint32_t rounded(std::uint32_t n) {
 }
 
 // The best filled page of several widths, all charts of `order` on it; none where they do not fit on one.
-std::vector<PackedPage> pack_last(std::span<const TexelMask> masks, const PackLimits& limits, std::uint32_t index,
-                                  std::span<const std::uint32_t> order, std::span<PackedChart> charts) {
+std::vector<PackedPage> pack_last(const Packing& packing, std::uint32_t index, std::span<const std::uint32_t> order) {
+  const auto& [masks, limits, charts] = packing;
   std::uint32_t widest = 0;
   for (const std::uint32_t i : order) widest = std::max(widest, std::min(masks[i].width(), masks[i].height()));
   const double side = std::sqrt(area_of(masks, order, limits.padding));
@@ -241,10 +247,10 @@ std::vector<PackedPage> pack_last(std::span<const TexelMask> masks, const PackLi
   std::vector<PackedChart> trial(charts.begin(), charts.end());
   for (const double factor : {1.06, 0.98, 1.02, 1.1, 1.15, 1.22}) {
     if (side * factor > limits.width || (order.size() > kManyCharts && !best.empty())) continue;
-    PackLimits narrow = limits;
-    narrow.width = std::max(static_cast<std::uint32_t>(std::ceil(side * factor)), widest);
+    Packing narrow{masks, limits, trial};
+    narrow.limits.width = std::max(static_cast<std::uint32_t>(std::ceil(side * factor)), widest);
     std::vector<std::uint32_t> rest(order.begin(), order.end());
-    const PackedPage page = fill_page(masks, narrow, index, true, rest, trial);
+    const PackedPage page = fill_page(narrow, index, true, rest);
     const auto texels = [](const PackedPage& p) { return std::size_t{rounded(p.width)} * rounded(p.height); };
     if (!rest.empty() || (!best.empty() && texels(page) >= texels(best[0]))) continue;
     best = {page};
@@ -253,21 +259,21 @@ std::vector<PackedPage> pack_last(std::span<const TexelMask> masks, const PackLi
   return best;
 }
 
-std::vector<PackedPage> pack(std::span<const TexelMask> masks, const PackLimits& limits, bool compact,
-                             std::span<PackedChart> charts) {
+std::vector<PackedPage> pack(const Packing& packing, bool compact) {
+  const auto& [masks, limits, charts] = packing;
   std::vector<std::uint32_t> order = packing_order(masks);
   std::vector<PackedPage> pages;
   while (!order.empty()) {
     if (pages.size() == limits.max_pages) return {};
     const auto index = static_cast<std::uint32_t>(pages.size());
     if (compact && area_of(masks, order, limits.padding) < static_cast<double>(limits.width) * limits.height) {
-      if (const auto last = pack_last(masks, limits, index, order, charts); !last.empty()) {
+      if (const auto last = pack_last(packing, index, order); !last.empty()) {
         pages.push_back(last[0]);
         return pages;
       }
     }
     const std::size_t before = order.size();
-    pages.push_back(fill_page(masks, limits, index, !compact && index + 1 == limits.max_pages, order, charts));
+    pages.push_back(fill_page(packing, index, !compact && index + 1 == limits.max_pages, order));
     if (order.size() == before) return {};  // a mask larger than a page
   }
   return pages;
@@ -301,12 +307,12 @@ double padded_area(std::span<const TexelMask> masks, std::uint32_t padding) {
 
 std::vector<PackedPage> pack_masks(std::span<const TexelMask> masks, const PackLimits& limits,
                                    std::span<PackedChart> charts) {
-  return pack(masks, limits, false, charts);
+  return pack({masks, limits, charts}, false);
 }
 
 std::vector<PackedPage> pack_compact(std::span<const TexelMask> masks, const PackLimits& limits,
                                      std::span<PackedChart> charts) {
-  return pack(masks, limits, true, charts);
+  return pack({masks, limits, charts}, true);
 }
 
 }  // namespace oriel

@@ -43,14 +43,20 @@ Interval inner_columns(const ConvexPolygon& part, double row) {
   return inner;
 }
 
-// wanted(column): others are left out.
-template <class Wanted>
-void add_row(std::uint32_t triangle, int row, const ConvexPolygon& part, int width, const Wanted& wanted,
-             std::vector<Entry>& out) {
+// The part of a triangle that lies in a row of its page.
+struct RowPart {
+  std::uint32_t triangle = 0;
+  int row = 0;
+  const ConvexPolygon& polygon;
+};
+
+// wanted: of the page's texels; others are left out. Null: all.
+void add_row(const RowPart& in, std::uint32_t width, const std::vector<bool>* wanted, std::vector<Entry>& out) {
+  const auto& [triangle, row, part] = in;
   const Interval x = extent(part, 0), inner = inner_columns(part, row);
-  const CellRange columns = touched_cells(x.lo, x.hi, width);
+  const CellRange columns = touched_cells(x.lo, x.hi, static_cast<int>(width));
   for (int column = columns.first; column <= columns.last; ++column) {
-    if (!wanted(column)) continue;
+    if (wanted && !(*wanted)[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)]) continue;
     double covered = 1;
     if (!(column >= inner.lo && column + 1 <= inner.hi)) {
       const ConvexPolygon piece = clip_axis(clip_axis(part, 0, column, 1), 0, column + 1, -1);
@@ -66,14 +72,11 @@ void fill_band(const Atlas& atlas, const WantedTexels& mask, Band& band) {
   for (const std::uint32_t t : band.triangles) {
     const Triangle2 triangle = texel_triangle(atlas, t);
     const int first = static_cast<int>(band.first_row), end = static_cast<int>(band.end_row);
-    for_each_row_between(
-        triangle, static_cast<int>(page.height), {first, end - 1}, [&](int row, const ConvexPolygon& part) {
-          const auto wanted = [&](int column) {
-            return mask.empty() ||
-                   mask[band.page][static_cast<std::size_t>(row) * page.width + static_cast<std::size_t>(column)];
-          };
-          add_row(t, row, part, static_cast<int>(page.width), wanted, band.rows[static_cast<std::size_t>(row - first)]);
-        });
+    for_each_row_between(triangle, static_cast<int>(page.height), {first, end - 1},
+                         [&](int row, const ConvexPolygon& part) {
+                           add_row({t, row, part}, page.width, mask.empty() ? nullptr : &mask[band.page],
+                                   band.rows[static_cast<std::size_t>(row - first)]);
+                         });
   }
   for (auto& row : band.rows) {
     std::stable_sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.x < b.x; });

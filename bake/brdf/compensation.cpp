@@ -38,12 +38,12 @@ Row row(const LobeFunction& f_cos, double width, double cos_theta, int order) {
 
 }  // namespace
 
-Compensation::Compensation(const LobeFunction& f_cos, double width, int order) : width_(width) {
+Compensation::Compensation(const CosineLobe& lobe, int order) : width_(lobe.width) {
   std::array<Row, kNodes> k;
   for (int i = 0; i < kNodes; ++i) {
     const double q = std::max(1e-6, static_cast<double>(i) / (kNodes - 1));
-    const double cos_theta = std::min(1.0, q * width / (1 + width - q));
-    k[static_cast<std::size_t>(i)] = row(f_cos, width, cos_theta, order);
+    const double cos_theta = std::min(1.0, q * width_ / (1 + width_ - q));
+    k[static_cast<std::size_t>(i)] = row(lobe.f_cos, width_, cos_theta, order);
   }
   scale_.fill(1);
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -60,8 +60,9 @@ Compensation::Compensation(const LobeFunction& f_cos, double width, int order) :
 }
 
 Compensation::Compensation(const Microfacet& isotropic, int order)
-    : Compensation([&](const DVec3& wo, const DVec3& wi, const DVec3& h) { return isotropic.f_cos(wo, wi, h); },
-                   isotropic.alpha_x, order) {}
+    : Compensation({[&](const DVec3& wo, const DVec3& wi, const DVec3& h) { return isotropic.f_cos(wo, wi, h); },
+                    isotropic.alpha_x},
+                   order) {}
 
 double Compensation::at(const Row& table, double cos_theta) const {
   const auto [i, f] = interval(width_, cos_theta);

@@ -14,12 +14,15 @@ namespace oriel {
 
 // A reciprocal isotropic BRDF times cosθi, without Fresnel's factor: f(wo, wi, h).
 using LobeFunction = std::function<double(const DVec3& wo, const DVec3& wi, const DVec3& h)>;
+struct CosineLobe {
+  LobeFunction f_cos;
+  double width = 1;  // in slopes of half vectors, (0, 1]
+};
 
 class Compensation {
  public:
-  // width: of the lobe in slopes of half vectors, (0, 1]. order: of the quadrature, see for_each_reflection(); GGX
-  // needs 12, Beckmann 24 for 1e-4.
-  Compensation(const LobeFunction& f_cos, double width, int order);
+  // order: of the quadrature, see for_each_reflection(); GGX needs 12, Beckmann 24 for 1e-4.
+  Compensation(const CosineLobe& lobe, int order);
   Compensation(const Microfacet& isotropic, int order = 24);
 
   // s and the single-scattering albedo E at a cosine in [0,1]: interpolated, to 2e-3.

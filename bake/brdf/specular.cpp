@@ -137,15 +137,15 @@ Vec3 specular_fresnel(const SpecularLobe& lobe, double cos_theta) {
   return Vec3(fresnel_of(lobe, fresnel_weight(lobe.curve, cos_theta)));
 }
 
-Albedo lobe_albedo(const LobeFunction& f_cos, double width, const Compensation& compensation,
-                   const std::function<DVec3(double)>& fresnel, const DVec3& f0, double cos_theta, int order) {
+Albedo lobe_albedo(const CosineLobe& lobe, const Compensation& compensation, const LobeFresnel& fresnel,
+                   double cos_theta, int order) {
   const DVec3 wo = direction_at(cos_theta);
   const double scale = compensation.scale(cos_theta);
   Albedo albedo;
-  for_each_reflection(cos_theta, width, order, [&](const DVec3& wi, const DVec3& h, double angle) {
-    const DVec3 value = f_cos(wo, wi, h) * angle * fresnel(glm::dot(wo, h));
+  for_each_reflection(cos_theta, lobe.width, order, [&](const DVec3& wi, const DVec3& h, double angle) {
+    const DVec3 value = lobe.f_cos(wo, wi, h) * angle * fresnel.at(glm::dot(wo, h));
     albedo.single += value;
-    albedo.compensated += value * (1.0 + f0 * (scale * compensation.scale(wi.z) - 1));
+    albedo.compensated += value * (1.0 + fresnel.f0 * (scale * compensation.scale(wi.z) - 1));
   });
   return albedo;
 }
@@ -160,9 +160,11 @@ Vec3 ExactReflectance::operator()(double cos_theta) const {
   if (!compensation_) return specular_fresnel(lobe_, cos_theta);
   const Microfacet facets(FacetModel::kGgx, lobe_.alpha);
   const Albedo albedo = lobe_albedo(
-      [&](const DVec3& wo, const DVec3& wi, const DVec3& h) { return facets.f_cos(wo, wi, h); }, lobe_.alpha,
-      *compensation_, [&](double cosine) { return fresnel_of(lobe_, in_root(weights_.data(), kCurveNodes, cosine)); },
-      DVec3(lobe_.f0), std::clamp(cos_theta, 1e-6, 1.0), kGgxOrder);
+      {[&](const DVec3& wo, const DVec3& wi, const DVec3& h) { return facets.f_cos(wo, wi, h); }, lobe_.alpha},
+      *compensation_,
+      {[&](double cosine) { return fresnel_of(lobe_, in_root(weights_.data(), kCurveNodes, cosine)); },
+       DVec3(lobe_.f0)},
+      std::clamp(cos_theta, 1e-6, 1.0), kGgxOrder);
   return glm::min(Vec3(albedo.compensated), Vec3(1));
 }
 

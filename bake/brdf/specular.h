@@ -40,10 +40,14 @@ struct Albedo {
   DVec3 single{0};       // single scattering alone
   DVec3 compensated{0};  // R; above 1 by 1e-3 at most where the lobe itself is bounded
 };
-// ∫ F f cosθi dωi of a lobe f of the given width, without and with `compensation` of it, by quadrature of `order`;
-// cos_theta in (0,1]. fresnel(cosθd) per channel; f0 its value at 0°.
-Albedo lobe_albedo(const LobeFunction& f_cos, double width, const Compensation& compensation,
-                   const std::function<DVec3(double)>& fresnel, const DVec3& f0, double cos_theta, int order = 24);
+// F(cosθd) per channel, and its value at 0°.
+struct LobeFresnel {
+  std::function<DVec3(double)> at;
+  DVec3 f0;
+};
+// ∫ F f cosθi dωi of a lobe, without and with `compensation` of it, by quadrature of `order`; cos_theta in (0,1].
+Albedo lobe_albedo(const CosineLobe& lobe, const Compensation& compensation, const LobeFresnel& fresnel,
+                   double cos_theta, int order = 24);
 
 // R of a lobe at any cosine in [0,1], error below 2e-4: for tables.
 class ExactReflectance {

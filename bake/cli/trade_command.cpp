@@ -2,9 +2,9 @@
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
 #include "formats/core/file.h"
-#include "tools/trade/html.h"
-#include "tools/trade/sweep.h"
-#include "tools/trade/table.h"
+#include "trade/html.h"
+#include "trade/sweep.h"
+#include "trade/table.h"
 
 namespace oriel {
 namespace {

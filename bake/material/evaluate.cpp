@@ -12,27 +12,26 @@ constexpr int kOrder = 32;
 
 // What the models have in common.
 struct Lobe {
-  LobeFunction f_cos;
-  double width = 1;
+  CosineLobe lobe;
   std::function<double(const DVec3&)> d;
 };
 
 Lobe lobe_of(BrdfModel model, double alpha) {
   if (model == BrdfModel::kGgx || model == BrdfModel::kBeckmann) {
     const Microfacet facets(model == BrdfModel::kGgx ? FacetModel::kGgx : FacetModel::kBeckmann, alpha);
-    return {[=](const DVec3& wo, const DVec3& wi, const DVec3& h) { return facets.f_cos(wo, wi, h); }, alpha,
+    return {{[=](const DVec3& wo, const DVec3& wi, const DVec3& h) { return facets.f_cos(wo, wi, h); }, alpha},
             [=](const DVec3& h) { return facets.d(h); }};
   }
   if (model == BrdfModel::kPhong) {
     const Phong phong = published_phong(alpha);
-    return {[=](const DVec3& wo, const DVec3& wi, const DVec3& h) { return phong.f_cos(wo, wi, h); }, alpha,
+    return {{[=](const DVec3& wo, const DVec3& wi, const DVec3& h) { return phong.f_cos(wo, wi, h); }, alpha},
             [=](const DVec3& h) { return phong.lobe(h.z); }};
   }
   const Ward ward{model == BrdfModel::kWardOriginal ? WardNorm::kOriginal
                   : model == BrdfModel::kWardDuer   ? WardNorm::kDuer
                                                     : WardNorm::kBounded,
                   alpha};
-  return {[=](const DVec3& wo, const DVec3& wi, const DVec3& h) { return ward.f_cos(wo, wi, h); }, alpha,
+  return {{[=](const DVec3& wo, const DVec3& wi, const DVec3& h) { return ward.f_cos(wo, wi, h); }, alpha},
           [=](const DVec3& h) { return ward.lobe(h.z); }};
 }
 
@@ -50,8 +49,8 @@ DVec3 schlick_fresnel(const DVec3& f0, double cos_theta) {
 }  // namespace
 
 std::vector<Evaluation> evaluate(const EvaluateOptions& options) {
-  const Lobe lobe = lobe_of(options.model, options.alpha);
-  const Compensation compensation(lobe.f_cos, lobe.width, kOrder);
+  const auto [lobe, d] = lobe_of(options.model, options.alpha);
+  const Compensation compensation(lobe, kOrder);
   const DVec3 f0 = exact_fresnel(options, 1);
   const auto fresnel = [&](double cosine) {
     return options.schlick ? schlick_fresnel(f0, cosine) : exact_fresnel(options, cosine);
@@ -66,15 +65,14 @@ std::vector<Evaluation> evaluate(const EvaluateOptions& options) {
     row.f = fresnel(cos_theta);
     row.f_error = schlick_fresnel(f0, cos_theta) - exact_fresnel(options, cos_theta);
     const DVec3 w = direction_at(cos_theta);
-    row.d = lobe.d(w);
+    row.d = d(w);
     if (options.model == BrdfModel::kGgx || options.model == BrdfModel::kBeckmann) {
       const Microfacet facets(options.model == BrdfModel::kGgx ? FacetModel::kGgx : FacetModel::kBeckmann,
                               options.alpha);
       row.g1 = facets.g1(w);
       row.g2 = facets.g2(w, w);
     }
-    const Albedo albedo =
-        lobe_albedo(lobe.f_cos, lobe.width, compensation, fresnel, f0, std::max(cos_theta, kGrazing), kOrder);
+    const Albedo albedo = lobe_albedo(lobe, compensation, {fresnel, f0}, std::max(cos_theta, kGrazing), kOrder);
     row.albedo = albedo.single;
     if (compensable) row.compensated = albedo.compensated;
     rows.push_back(row);

@@ -183,14 +183,6 @@ SpecularLayers layers_of(const MaterialSummary& s) {
   return {{s.f0, s.f90, s.base_alpha, s.curve}, s.coat, s.coat_alpha};
 }
 
-MaterialSummary summarize_material(const Scene& scene, std::uint32_t material) {
-  std::vector<std::uint32_t> triangles;
-  for (const Surface& surface : scene.surfaces)
-    if (surface.material == material)
-      for (std::uint32_t i = 0; i < surface.triangle_count; ++i) triangles.push_back(surface.first_triangle + i);
-  return summarize(scene, material, triangles);
-}
-
 std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
   std::vector<std::vector<std::uint32_t>> triangles(scene.materials.size());
   for (const Surface& surface : scene.surfaces)

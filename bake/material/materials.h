@@ -30,8 +30,6 @@ struct MaterialSummary {
 
 // Textured materials are sampled at a fixed number of points spread over their triangles in proportion to area: the
 // same scene gives the same bytes.
-MaterialSummary summarize_material(const Scene& scene, std::uint32_t material);
-// The same for all materials in one pass over the triangles.
 std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 
 struct MaterialOptions {

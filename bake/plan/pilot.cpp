@@ -84,13 +84,20 @@ Result<double> stored_bytes(const CensusInput& in, const BakedScene& coarse, Ref
 }
 
 // Parts of one map, captured and stored.
-Result<Rate> capture_parts(const CensusInput& in, const BakedScene& coarse, const ReflectedSurroundings& surroundings,
-                           const RadianceMap& whole, std::uint32_t paths, Context& context) {
+struct CoarseReflections {
+  const BakedScene& coarse;
+  const ReflectedSurroundings& surroundings;
+  std::uint32_t paths = 0;  // of a lobe
+};
+Result<Rate> capture_parts(const CensusInput& in, const CoarseReflections& seen_in, const RadianceMap& whole,
+                           Context& context) {
+  const BakedScene& coarse = seen_in.coarse;
+  const ReflectedSurroundings& surroundings = seen_in.surroundings;
   std::vector<RadianceMap> strips = strips_of(whole);
   std::atomic<std::uint64_t> rays{0};
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     std::uint64_t lobe_rays = 0;
-    const Vec3 radiance = baked_radiance_with_lobes(coarse, seen, paths, context.seed, lobe_rays);
+    const Vec3 radiance = baked_radiance_with_lobes(coarse, seen, seen_in.paths, context.seed, lobe_rays);
     rays += lobe_rays;
     return radiance;
   };
@@ -132,7 +139,7 @@ Result<Component> pilot_reflections(const CensusInput& in, const BakedScene& coa
   for (const FoundReflector& found : fewer.reflectors) {
     const Reflector& r = found.reflector;
     if (r.map_count == 0) continue;
-    ORIEL_TRY(const Rate rate, capture_parts(in, coarse, surroundings, fewer.maps[r.first_map], paths, context));
+    ORIEL_TRY(const Rate rate, capture_parts(in, {coarse, surroundings, paths}, fewer.maps[r.first_map], context));
     double own = 0;
     for (std::uint32_t m = 0; m < r.map_count; ++m) own += more * pixels(fewer.maps[r.first_map + m]);
     seconds += own * rate.seconds, rays += own * rate.rays, bytes += own * rate.bytes, all += own;

@@ -141,8 +141,8 @@ class Planner {
   Result<std::vector<ReflectedSample>> samples_of(std::uint32_t reflector) {
     const Reflector& r = surroundings_.reflectors()[reflector].reflector;
     const ElementGrid shares = element_grid(r.upper - r.lower, options_.element_m, kMostShares);
-    return sample_reflections(surroundings_, reflector, options_.eyes, options_.samples * shares.x * shares.y,
-                              context_.seed, context_);
+    return sample_reflections(surroundings_, reflector,
+                              {options_.eyes, options_.samples * shares.x * shares.y, context_.seed}, context_);
   }
 
   Result<ReflectorPlan> plan_on(std::uint32_t reflector, const ElementGrid& grid,
@@ -261,7 +261,7 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
   std::vector<float> shown(all.size());
   for (std::uint32_t r = 0; r < all.size(); ++r) {
     double angle = 0;
-    ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, eyes, kTrialSamples, context.seed, context));
+    ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, {eyes, kTrialSamples, context.seed}, context));
     for (const ReflectedSample& s : samples) angle += s.weight;
     shown[r] = solid_angle_shown(all[r].reflector.area_m2, samples);
     if (angle > 0)

@@ -270,8 +270,8 @@ class ResidualMaker {
   Result<std::vector<std::vector<ReflectedSample>>> see_by_camera(std::uint32_t reflector) {
     std::vector<std::vector<ReflectedSample>> seen;
     for (const Vec3& camera : options_.cameras) {
-      ORIEL_TRY(auto samples, sample_reflections(lit_.around, reflector, {&camera, 1}, options_.camera_samples,
-                                                 context_.seed + 3, context_));
+      ORIEL_TRY(auto samples, sample_reflections(lit_.around, reflector,
+                                                 {{&camera, 1}, options_.camera_samples, context_.seed + 3}, context_));
       float total = 0;
       for (const ReflectedSample& s : samples) total += s.weight;
       if (!(total > 0)) continue;
@@ -306,8 +306,8 @@ class ResidualMaker {
 
   // Samples of surfaces and the sky that no map sees; none where they are not worth a map.
   Result<std::vector<ReflectedSample>> find_missing(std::uint32_t reflector, std::span<const RadianceMap> maps) {
-    ORIEL_TRY(const auto samples,
-              sample_reflections(lit_.around, reflector, options_.eyes, options_.samples, context_.seed + 2, context_));
+    ORIEL_TRY(const auto samples, sample_reflections(lit_.around, reflector,
+                                                     {options_.eyes, options_.samples, context_.seed + 2}, context_));
     std::vector<std::uint8_t> is_missing(samples.size());
     ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
       is_missing[i] = std::none_of(maps.begin(), maps.end(),

@@ -109,8 +109,9 @@ std::optional<ReflectedSample> reflect(const ReflectedSurroundings& surroundings
 }
 
 Result<std::vector<ReflectedSample>> draw_samples(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
-                                                  std::span<const Vec3> eyes, std::uint32_t count, std::uint64_t seed,
-                                                  Context& context) {
+                                                  const SampleOptions& options, Context& context) {
+  const std::span<const Vec3> eyes = options.eyes;
+  const std::uint32_t count = options.count;
   const SurfacePoints points(surroundings.accel().scene(), surroundings.reflectors()[reflector]);
   std::vector<ReflectedSample> samples;
   std::vector<std::optional<ReflectedSample>> tried(eyes.empty() ? 0 : count);
@@ -118,7 +119,7 @@ Result<std::vector<ReflectedSample>> draw_samples(const ReflectedSurroundings& s
   for (std::uint32_t round = 0; round < kRounds && samples.size() < count; ++round) {
     ORIEL_TRY_VOID(parallel_for(context, "", tried.size(), [&](std::size_t i) {
       const std::size_t pair = std::size_t{round} * count + i;
-      Sampler sampler(seed, reflector, static_cast<std::uint32_t>(pair));
+      Sampler sampler(options.seed, reflector, static_cast<std::uint32_t>(pair));
       tried[i] = reflect(surroundings, reflector, eyes[pair % eyes.size()], points.sample(sampler));
     }));
     for (const auto& sample : tried) {
@@ -136,14 +137,15 @@ Result<std::vector<ReflectedSample>> draw_samples(const ReflectedSurroundings& s
 }  // namespace
 
 Result<std::vector<ReflectedSample>> sample_reflections(const ReflectedSurroundings& surroundings,
-                                                        std::uint32_t reflector, std::span<const Vec3> eyes,
-                                                        std::uint32_t count, std::uint64_t seed, Context& context) {
+                                                        std::uint32_t reflector, const SampleOptions& options,
+                                                        Context& context) {
   const FoundReflector& found = surroundings.reflectors()[reflector];
   std::vector<ReflectedSample> samples;
   ORIEL_TRY_VOID(one_unit(
-      context, "reflected samples", [&](Archive& key) { key(reflector, eyes, count, seed, found); },
+      context, "reflected samples",
+      [&](Archive& key) { key(reflector, options.eyes, options.count, options.seed, found); },
       [&]() -> Status {
-        ORIEL_TRY(samples, draw_samples(surroundings, reflector, eyes, count, seed, context));
+        ORIEL_TRY(samples, draw_samples(surroundings, reflector, options, context));
         return {};
       },
       [&](Archive& archive) { archive(samples); }));

@@ -25,13 +25,18 @@ inline void fields(Archive& archive, ReflectedSample& s) {
   archive(s.on_plane, s.eye, s.image, s.normal, s.spacing, s.weight, s.sky);
 }
 
-// Pairs of an eye (scene space, those of `eyes` in turn) and a point of the reflector that see each other: `count` of
-// them, or fewer where eyes seldom see it, or none. What shows the back of a surface is left out. A black sky
-// counts, as it would be filled from the light beside it where no map tells, but none are given of a reflector that
-// shows nothing else. The same for the same seed.
+struct SampleOptions {
+  std::span<const Vec3> eyes;  // scene space, each in turn
+  std::uint32_t count = 0;
+  std::uint64_t seed = 0;
+};
+
+// Pairs of an eye and a point of the reflector that see each other: `count` of them, or fewer where eyes seldom see it,
+// or none. What shows the back of a surface is left out. A black sky counts, as it would be filled from the light
+// beside it where no map tells, but none are given of a reflector that shows nothing else. The same for the same seed.
 Result<std::vector<ReflectedSample>> sample_reflections(const ReflectedSurroundings& surroundings,
-                                                        std::uint32_t reflector, std::span<const Vec3> eyes,
-                                                        std::uint32_t count, std::uint64_t seed, Context& context);
+                                                        std::uint32_t reflector, const SampleOptions& options,
+                                                        Context& context);
 
 // Pixels that the longer side of a map from `viewpoint` through `window` needs to show the sample sharp; infinite where
 // it does not see it.

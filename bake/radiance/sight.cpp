@@ -36,19 +36,20 @@ const FoundReflector* ReflectedSurroundings::reflector_at(std::uint32_t triangle
 
 class ReflectedSurroundings::Walk {
  public:
-  Walk(const ReflectedSurroundings& surroundings, std::uint32_t reflector, const Vec3& from, const Vec3& direction,
-       const Visit& visit, const Cone& cone)
+  // from: the ray's origin lies on the reflector's plane.
+  Walk(const ReflectedSurroundings& surroundings, std::uint32_t reflector, const Ray& from, const Visit& visit,
+       const Cone& cone)
       : in_(surroundings),
         scene_(surroundings.accel_.scene()),
         visit_(visit),
         cone_(cone),
         left_(&surroundings.reflectors_[reflector]),
         orders_left_(std::max(surroundings.options_.orders, 1u) - 1),
-        start_(from) {
+        start_(from.origin) {
     // Coordinates' rounding near the reflector, and how far its triangles bulge from its plane.
     const Reflector& r = left_->reflector;
     step_ = kStep * (max_component(glm::abs(Vec3(r.pack_from_reflector[3]))) + glm::length(r.upper - r.lower));
-    ray_ = {from + step_ * Vec3(r.pack_from_reflector[2]), direction};
+    ray_ = {from.origin + step_ * Vec3(r.pack_from_reflector[2]), from.direction};
   }
 
   Sight run() {
@@ -180,7 +181,7 @@ class ReflectedSurroundings::Walk {
 
 Sight ReflectedSurroundings::look(std::uint32_t reflector, const Vec3& from, const Vec3& direction, const Visit& visit,
                                   const Cone& cone) const {
-  return Walk(*this, reflector, from, direction, visit, cone).run();
+  return Walk(*this, reflector, {from, direction}, visit, cone).run();
 }
 
 }  // namespace oriel

@@ -146,8 +146,16 @@ struct SideLight {
   }
 };
 
-LitSides lit_sides(const Transport& t, const Onlookers& onlookers, std::span<const std::uint32_t> part,
-                   std::size_t points, std::uint64_t seed, std::uint64_t& rays) {
+// How sides are told apart.
+struct SideProbe {
+  const Transport& transport;
+  const Onlookers& onlookers;
+  std::size_t points = 0;  // of each part
+  std::uint64_t seed = 0;
+};
+
+LitSides lit_sides(const SideProbe& probe, std::span<const std::uint32_t> part, std::uint64_t& rays) {
+  const auto& [t, onlookers, points, seed] = probe;
   const Scene& scene = t.accel.scene();
   std::vector<double> area_until;
   double total = 0;
@@ -194,7 +202,7 @@ Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Ve
   loop.inputs = [&](std::size_t i, Archive& key) { key(i, where); };
   loop.compute = [&](std::size_t i) {
     std::uint64_t traced = 0;
-    of_part[i] = lit_sides(short_paths, onlookers, parts.of(i), points, context.seed, traced);
+    of_part[i] = lit_sides({short_paths, onlookers, points, context.seed}, parts.of(i), traced);
     return traced;
   };
   loop.results = [&](std::size_t i, Archive& archive) { archive(of_part[i]); };

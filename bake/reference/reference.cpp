@@ -3,7 +3,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/reference/glints.h"
 #include "bake/trace/albedo.h"
-#include "formats/metrics/relative_error.h"
+#include "formats/image/relative_error.h"
 #include "formats/query/camera.h"
 
 namespace oriel {

@@ -35,13 +35,14 @@ Vec3 shown_light(const BakedScene& baked, const SeenSurface& seen, const Surface
   const Vec3 share = surface.shade.diffuse * (1 - max_component(r)) + (wide_lobe ? r : Vec3(0));
   const Vec3 normal = geometry_at(scene, seen.hit, -seen.towards_eye).normal;
   const Vec3 e =
-      baked_irradiance(baked.atlas, baked.pages, surface.triangle, surface.barycentric, surface.normal, normal);
+      baked_irradiance(baked.atlas, baked.pages, {surface.triangle, surface.barycentric}, surface.normal, normal);
   return light + share / kPi * e;
 }
 
 // What the specular lobes send towards the eye.
-Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3& towards_eye, std::uint32_t paths,
-                std::uint64_t seed, std::uint64_t& rays) {
+Vec3 lobe_light(const BakedScene& baked, const ReflectingPoint& seen, std::uint32_t paths, std::uint64_t seed,
+                std::uint64_t& rays) {
+  const SurfacePoint& surface = seen.surface;
   const Transport transport{baked.accel, baked.lights, {.max_bounces = kMostLobes}};
   const UVec2 place = glm::floatBitsToUint(surface.barycentric);
   const std::uint64_t stream = mix64(mix64(surface.triangle) ^ (std::uint64_t{place.x} << 32u | place.y));
@@ -49,12 +50,12 @@ Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3
   const OnDiffuse add = [&](const DiffuseVertex& v) {
     if (!v.front) return 1.0f;
     const Vec3 normal = geometric_normal(baked.accel.scene(), v.triangle);
-    sum += v.weight / kPi * baked_irradiance(baked.atlas, baked.pages, v.triangle, v.barycentric, normal, normal);
+    sum += v.weight / kPi * baked_irradiance(baked.atlas, baked.pages, {v.triangle, v.barycentric}, normal, normal);
     return 1.0f;
   };
   for (std::uint32_t i = 0; i < paths; ++i) {
     Sampler sampler(seed, stream, i);
-    const PathLight light = specular_light(transport, surface, towards_eye, sampler, rays, add);
+    const PathLight light = specular_light(transport, seen, sampler, rays, add);
     sum += light.scattered + light.lamps;
   }
   return sum / static_cast<float>(paths);
@@ -73,12 +74,12 @@ bool shows_lobe(const BakedScene& baked, const SeenSurface& seen, const SurfaceP
 
 }  // namespace
 
-Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
-                      const Vec2& barycentric, const Vec3& tilted, const Vec3& normal) {
-  const std::int32_t index = atlas.page[triangle];
+Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, const TexelPoint& at, const Vec3& tilted,
+                      const Vec3& normal) {
+  const std::int32_t index = atlas.page[at.triangle];
   if (index < 0) return Vec3(0);
   const LightmapPage& page = pages[static_cast<std::size_t>(index)];
-  const Vec2 uv = uv_at(atlas, triangle, barycentric);
+  const Vec2 uv = uv_at(atlas, at.triangle, at.barycentric);
   const Vec3 e = irradiance_at(page, uv);
   if (page.direction.empty() || tilted == normal) return e;
   return e * directional_ratio(direction_at(page, uv), tilted, normal);
@@ -111,7 +112,7 @@ Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen,
   const SurfacePoint surface = surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye, seen.width_m);
   if (!shows_lobe(baked, seen, surface)) return shown_light(baked, seen, surface, !seen.mirror);
   if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths = std::max(1u, paths / kFewerForMirrors);
-  return shown_light(baked, seen, surface, false) + lobe_light(baked, surface, seen.towards_eye, paths, seed, rays);
+  return shown_light(baked, seen, surface, false) + lobe_light(baked, {surface, seen.towards_eye}, paths, seed, rays);
 }
 
 }  // namespace oriel

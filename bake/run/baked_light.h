@@ -3,18 +3,17 @@
 
 #include <span>
 
-#include "bake/atlas/atlas.h"
+#include "bake/atlas/texel_map.h"
 #include "bake/radiance/capture.h"
 #include "bake/trace/path.h"
 #include "formats/assets/lightmap.h"
 
 namespace oriel {
 
-// Irradiance at a point of a triangle, lux: bilinear between texel centres, as the player's hardware does, and with a
-// directional lightmap that of the normal `tilted` instead of `normal` (both unit, front side). 0 for triangles without
-// a chart.
-Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
-                      const Vec2& barycentric, const Vec3& tilted, const Vec3& normal);
+// Irradiance at a point, lux: bilinear between texel centres, as the player's hardware does, and with a directional
+// lightmap that of the normal `tilted` instead of `normal` (both unit, front side). 0 for triangles without a chart.
+Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, const TexelPoint& at, const Vec3& tilted,
+                      const Vec3& normal);
 
 // What is lit and shows: `lights`, `atlas` and `pages` are those of the accelerator's scene.
 struct BakedScene {

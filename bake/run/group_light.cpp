@@ -103,7 +103,7 @@ class Shares {
     for (std::size_t g = 0; g < light_.size(); ++g)
       sum[g] +=
           DVec3(point.shade.diffuse / kPi *
-                baked_irradiance(baked_.atlas, light_[g], hit.triangle, hit.barycentric, point.normal, point.normal));
+                baked_irradiance(baked_.atlas, light_[g], {hit.triangle, hit.barycentric}, point.normal, point.normal));
   }
 
   std::vector<Vec3> of(const std::vector<DVec3>& sum) const {

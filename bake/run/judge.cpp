@@ -133,7 +133,7 @@ Result<double> worst_seen(const ReflectedSurroundings& surroundings, std::uint32
   double worst = 1;
   for (const Vec3& camera : cameras) {
     ORIEL_TRY(const auto samples,
-              sample_reflections(surroundings, reflector, {&camera, 1}, kCameraSamples, context.seed + 4, context));
+              sample_reflections(surroundings, reflector, {{&camera, 1}, kCameraSamples, context.seed + 4}, context));
     if (!samples.empty()) worst = std::min(worst, judge_maps(surroundings, own, samples, context).seen);
   }
   return worst;

@@ -172,7 +172,7 @@ Status judge(const LitSurroundings& lit, std::span<const RadianceMap> maps, cons
     };
     const auto compute = [&]() -> Status {
       ORIEL_TRY(const auto samples,
-                sample_reflections(surroundings, r, judges.eyes, kHeldOutSamples, context.seed + 1, context));
+                sample_reflections(surroundings, r, {judges.eyes, kHeldOutSamples, context.seed + 1}, context));
       q = judge_maps(surroundings, own, samples, context);
       std::atomic<std::uint64_t> judging{0};
       ORIEL_TRY(q.worst, worst_seen(surroundings, r, own, judges.cameras, context));

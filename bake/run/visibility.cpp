@@ -89,7 +89,7 @@ class SetFinder {
             key(grid.lower, grid.cell_m, grid.width, grid.height, grid.floor_y, grid.eye_height_m);
           key(side);
         },
-        [&] { return find_visible_sets(scene_, onlookers_.grids, side, options_, context_, lines); }, seen, lines);
+        [&] { return find_visible_sets(scene_, onlookers_.grids, side, options_, context_); }, seen, lines);
   }
   Result<bool> reflected(std::vector<std::uint8_t>& seen, std::uint64_t& lines) {
     const std::vector<SeenMirror> mirrors = mirrors_of(onlookers_.reflectors);
@@ -99,7 +99,7 @@ class SetFinder {
           key(onlookers_.eyes);
           for (const SeenMirror& mirror : mirrors) key(mirror.plane, mirror.lift, mirror.triangles);
         },
-        [&] { return find_reflected_sets(scene_, mirrors, onlookers_.eyes, options_, context_, lines); }, seen, lines);
+        [&] { return find_reflected_sets(scene_, mirrors, onlookers_.eyes, options_, context_); }, seen, lines);
   }
 
  private:
@@ -108,6 +108,7 @@ class SetFinder {
                     std::uint64_t& lines) {
     const auto late = [&] { return clock_.spent() > seconds_; };
     const Interruptible until(context_, late);
+    FoundSets found;
     const Status done = one_unit(
         context_, name,
         [&](Archive& key) {
@@ -115,11 +116,14 @@ class SetFinder {
           key(scene_.group, options_.first_lines, options_.least_lines, options_.most_lines);
         },
         [&]() -> Status {
-          ORIEL_TRY(seen, compute());
+          ORIEL_TRY(found, compute());
           return {};
         },
-        [&](Archive& archive) { archive(seen, lines); });
-    if (done) return true;
+        [&](Archive& archive) { archive(found.seen, found.rays); });
+    if (done) {
+      seen = std::move(found.seen), lines += found.rays;
+      return true;
+    }
     if (done.error().code == ErrorCode::kStopped && !context_.stop && late()) return false;
     return tl::unexpected(done.error());
   }

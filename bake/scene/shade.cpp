@@ -23,15 +23,22 @@ Vec4 vertex_color(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
   return glm::clamp(color, 0.0f, 1.0f);
 }
 
-Vec4 texture_at(const Scene& scene, const TextureSlot& slot, std::uint32_t triangle, const Vec2& b, bool srgb,
-                const Footprint& footprint = {}) {
+// Where textures are read.
+struct TexturedPoint {
+  const Scene& scene;
+  std::uint32_t triangle = 0;
+  Vec2 barycentric{0};
+  Footprint footprint = {};
+};
+
+Vec4 texture_at(const TexturedPoint& at, const TextureSlot& slot, bool srgb) {
   if (slot.image < 0) return Vec4(1);
-  const std::vector<Vec2>& uvs = slot.texcoord == 0 ? scene.uv0 : scene.uv1;
-  const UVec3& t = scene.triangles[triangle];
-  const Vec2 uv = interpolate(uvs, t, b);
-  if (footprint.is_point()) return sample_texture(scene, slot, uv, srgb);
+  const std::vector<Vec2>& uvs = slot.texcoord == 0 ? at.scene.uv0 : at.scene.uv1;
+  const UVec3& t = at.scene.triangles[at.triangle];
   const auto step = [&](const Vec2& s) { return s.x * (uvs[t.y] - uvs[t.x]) + s.y * (uvs[t.z] - uvs[t.x]); };
-  return sample_texture(scene, slot, uv, step(footprint.shorter), step(footprint.longer), srgb);
+  const auto& [shorter, longer] = at.footprint;
+  const Footprint over = at.footprint.is_point() ? Footprint{} : Footprint{step(shorter), step(longer)};
+  return sample_texture(at.scene, slot, interpolate(uvs, t, at.barycentric), srgb, over);
 }
 
 float coverage_of(const SceneMaterial& material, float alpha) {
@@ -47,11 +54,10 @@ float coverage_of(const SceneMaterial& material, float alpha) {
 }
 
 // Base colour and alpha.
-Vec4 base_at(const Scene& scene, const SceneMaterial& material, std::uint32_t triangle, const Vec2& b,
-             const Footprint& footprint = {}) {
+Vec4 base_at(const TexturedPoint& at, const SceneMaterial& material) {
   const Vec4 factor(material.base_color, material.alpha);
-  const Vec4 image = texture_at(scene, material.base_color_texture, triangle, b, true, footprint);
-  return glm::clamp(factor * image * vertex_color(scene, triangle, b), 0.0f, 1.0f);
+  const Vec4 image = texture_at(at, material.base_color_texture, true);
+  return glm::clamp(factor * image * vertex_color(at.scene, at.triangle, at.barycentric), 0.0f, 1.0f);
 }
 
 // Measured constants in place of base colour and Schlick's curve.
@@ -63,21 +69,19 @@ void make_metal(ShadePoint& p, Metal metal) {
   p.eta = 0;
 }
 
-void add_coat(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b, const Footprint& f,
-              ShadePoint& p) {
+void add_coat(const TexturedPoint& at, const SceneMaterial& m, ShadePoint& p) {
   if (m.coat <= 0) return;
-  p.coat = m.coat * texture_at(scene, m.coat_texture, triangle, b, false, f).r;
-  const float roughness = m.coat_roughness * texture_at(scene, m.coat_roughness_texture, triangle, b, false, f).g;
+  p.coat = m.coat * texture_at(at, m.coat_texture, false).r;
+  const float roughness = m.coat_roughness * texture_at(at, m.coat_roughness_texture, false).g;
   p.coat_alpha = roughness * roughness;
 }
 
-void add_anisotropy(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b,
-                    const Footprint& f, ShadePoint& p) {
+void add_anisotropy(const TexturedPoint& at, const SceneMaterial& m, ShadePoint& p) {
   if (m.anisotropy <= 0) return;
   Vec2 direction(1, 0);
   p.anisotropy = m.anisotropy;
   if (m.anisotropy_texture.image >= 0) {
-    const Vec4 texel = texture_at(scene, m.anisotropy_texture, triangle, b, false, f);
+    const Vec4 texel = texture_at(at, m.anisotropy_texture, false);
     const Vec2 d = 2.0f * Vec2(texel) - 1.0f;
     if (glm::dot(d, d) > 1e-6f) direction = glm::normalize(d);
     p.anisotropy *= texel.b;
@@ -90,7 +94,8 @@ void add_anisotropy(const Scene& scene, const SceneMaterial& m, std::uint32_t tr
 
 ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Footprint& f) {
   const SceneMaterial& m = scene.material_of(triangle);
-  const Vec4 base = base_at(scene, m, triangle, b, f);
+  const TexturedPoint at{scene, triangle, b, f};
+  const Vec4 base = base_at(at, m);
   ShadePoint p;
   p.base_color = Vec3(base);
   if (m.unlit) {
@@ -100,13 +105,13 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
     return p;
   }
   p.coverage = coverage_of(m, base.a);
-  const Vec4 mr = texture_at(scene, m.metallic_roughness_texture, triangle, b, false, f);
+  const Vec4 mr = texture_at(at, m.metallic_roughness_texture, false);
   const float metallic = std::clamp(m.metallic * mr.b, 0.0f, 1.0f),
               roughness = std::clamp(m.roughness * mr.g, 0.0f, 1.0f);
   const float transmission =
-      m.transmission > 0 ? m.transmission * texture_at(scene, m.transmission_texture, triangle, b, false, f).r : 0.0f;
-  const float specular = m.specular * texture_at(scene, m.specular_texture, triangle, b, false, f).a;
-  const Vec3 tint = m.specular_color * Vec3(texture_at(scene, m.specular_color_texture, triangle, b, true, f));
+      m.transmission > 0 ? m.transmission * texture_at(at, m.transmission_texture, false).r : 0.0f;
+  const float specular = m.specular * texture_at(at, m.specular_texture, false).a;
+  const Vec3 tint = m.specular_color * Vec3(texture_at(at, m.specular_color_texture, true));
   const Vec3 dielectric = glm::min(static_cast<float>(dielectric_f0(m.ior)) * tint, Vec3(1)) * specular;
   p.f0 = glm::mix(dielectric, p.base_color, metallic);
   p.f90 = glm::mix(specular, 1.0f, metallic);
@@ -116,10 +121,10 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
   p.transmission = (1 - metallic) * transmission * p.base_color;
   if (m.solid && max_component(p.transmission) > 0) p.eta = m.ior, p.absorption = m.absorption;
   if (m.metal != Metal::kNone) make_metal(p, m.metal);
-  add_coat(scene, m, triangle, b, f, p);
-  add_anisotropy(scene, m, triangle, b, f, p);
+  add_coat(at, m, p);
+  add_anisotropy(at, m, p);
   p.emission = m.emission;
-  if (max_component(m.emission) > 0) p.emission *= Vec3(texture_at(scene, m.emission_texture, triangle, b, true, f));
+  if (max_component(m.emission) > 0) p.emission *= Vec3(texture_at(at, m.emission_texture, true));
   return p;
 }
 
@@ -154,7 +159,7 @@ Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, co
   const TextureSlot& slot = m.normal_texture;
   if (slot.image < 0 || m.unlit) return normal;
   const Vec4 tangent = tangent_at(scene, triangle, b, normal, slot);
-  return tilted_normal(normal, tangent, Vec3(texture_at(scene, slot, triangle, b, false, footprint)), m.normal_scale);
+  return tilted_normal(normal, tangent, Vec3(texture_at({scene, triangle, b, footprint}, slot, false)), m.normal_scale);
 }
 
 Vec3 transmittance_at(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
@@ -189,7 +194,7 @@ Vec3 mean_emission(const Scene& scene, std::uint32_t triangle) {
       // Row i holds upright and, between them, upside-down parts.
       const float third = k % 2 == 0 ? 1.0f / 3 : 2.0f / 3;
       const Vec2 b = Vec2(static_cast<float>(k / 2) + third, static_cast<float>(i) + third) / static_cast<float>(n);
-      sum += DVec3(texture_at(scene, m.emission_texture, triangle, b, true));
+      sum += DVec3(texture_at({scene, triangle, b}, m.emission_texture, true));
     }
   return m.emission * Vec3(sum / static_cast<double>(n * n));
 }

@@ -100,15 +100,11 @@ Footprint cone_footprint(const Scene& scene, std::uint32_t triangle, const Vec3&
   return {steps(radius * glm::cross(normal, longer)), steps(radius / std::max(cosine, kGrazing) * longer)};
 }
 
-Vec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Vec2& uv, bool srgb) {
-  return sample_image(scene.images[static_cast<std::size_t>(slot.image)], image_from(slot, uv, 1), slot, srgb);
-}
-
-Vec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Vec2& uv, const Vec2& shorter,
-                    const Vec2& longer, bool srgb) {
+Vec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Vec2& uv, bool srgb, const Footprint& over) {
   const Image& image = scene.images[static_cast<std::size_t>(slot.image)];
   const DVec2 at = image_from(slot, uv, 1), size(image.width, image.height);
-  DVec2 narrow = image_from(slot, shorter, 0), wide = image_from(slot, longer, 0);
+  if (over.is_point()) return sample_image(image, at, slot, srgb);
+  DVec2 narrow = image_from(slot, over.shorter, 0), wide = image_from(slot, over.longer, 0);
   if (glm::length(size * narrow) > glm::length(size * wide)) std::swap(narrow, wide);
   const double long_texels = glm::length(size * wide);  // radii
   const double texels = 2 * std::max(glm::length(size * narrow), long_texels / kMostPlaces);

@@ -103,12 +103,23 @@ struct Accel::Impl {
     rtcInitIntersectContext(&context);
     rtcIntersect1(rtc_scene, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return hit_of(query.hit.geomID, query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v},
-                  {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}, ray.direction);
+    return hit_of({query.hit.geomID,
+                   query.hit.primID,
+                   query.ray.tfar,
+                   {query.hit.u, query.hit.v},
+                   {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}},
+                  ray.direction);
   }
 
-  Hit hit_of(unsigned geometry, unsigned primitive, float distance, const Vec2& barycentric, const Vec3& normal,
-             const Vec3& direction) const {
+  // What Embree says of one ray.
+  struct Answer {
+    unsigned geometry = 0, primitive = 0;
+    float distance = 0;
+    Vec2 barycentric{0};
+    Vec3 normal{0};
+  };
+  Hit hit_of(const Answer& answer, const Vec3& direction) const {
+    const auto& [geometry, primitive, distance, barycentric, normal] = answer;
     const Group& group = shape->groups[geometry];
     Hit hit;
     hit.triangle = group.triangle.empty() ? primitive : group.triangle[primitive];
@@ -153,10 +164,12 @@ struct Accel::Impl {
     rtcIntersect16(active.data(), rtc_scene, &context, &query);
     const RTCHit16& h = query.hit;
     for (int i = 0; i < count; ++i)
-      hits[i] = h.geomID[i] == RTC_INVALID_GEOMETRY_ID
-                    ? Hit()
-                    : hit_of(h.geomID[i], h.primID[i], query.ray.tfar[i], {h.u[i], h.v[i]},
-                             {h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]}, rays[i].direction);
+      hits[i] =
+          h.geomID[i] == RTC_INVALID_GEOMETRY_ID
+              ? Hit()
+              : hit_of(
+                    {h.geomID[i], h.primID[i], query.ray.tfar[i], {h.u[i], h.v[i]}, {h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]}},
+                    rays[i].direction);
   }
 
   // What stands in a shadow ray's way.

@@ -11,6 +11,13 @@ namespace {
 
 constexpr float kMostPaths = 16;  // that one splits into at a time
 
+// What a path is traced with.
+struct Tracing {
+  const Transport& transport;
+  Sampler& sampler;
+  std::uint64_t& rays;
+};
+
 float balance(float pdf, float other) {
   return pdf / (pdf + other);
 }
@@ -24,8 +31,10 @@ struct FromEmitter {
   Vec3 direction{0, 0, 1};  // LightSample::direction
 };
 template <class Reflect, class Pdf>
-FromEmitter sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays,
-                          const Reflect& reflect, const Pdf& pdf_of) {
+FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const Reflect& reflect, const Pdf& pdf_of) {
+  const Transport& t = by.transport;
+  Sampler& sampler = by.sampler;
+  std::uint64_t& rays = by.rays;
   const float u = sampler.next1();
   const Vec2 v = sampler.next2();
   if (t.lights.empty()) return {};
@@ -55,8 +64,11 @@ void book(const Transport& t, LightBook::Kind kind, std::uint32_t group, const V
 // The same of lights in mirrors, which no other strategy finds, by way of so many at most. add(direction, group,
 // light).
 template <class Reflect, class Add>
-void sample_mirrored(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays,
-                     int most_mirrors, const Reflect& reflect, const Add& add) {
+void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mirrors, const Reflect& reflect,
+                     const Add& add) {
+  const Transport& t = by.transport;
+  Sampler& sampler = by.sampler;
+  std::uint64_t& rays = by.rays;
   const VirtualLights& mirrored = t.lights.mirrored();
   if (mirrored.empty()) return;
   const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
@@ -74,11 +86,9 @@ void sample_mirrored(const Transport& t, const SurfacePoint& surface, Sampler& s
   });
 }
 
-FromEmitter sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, const Shading& shading,
-                               Sampler& sampler, std::uint64_t& rays) {
+FromEmitter sample_lights_bsdf(const Tracing& by, const SurfacePoint& surface, const Shading& shading) {
   return sample_lights(
-      t, surface, sampler, rays, [&](const Vec3& wi) { return shading.eval(wi); },
-      [&](const Vec3& wi) { return shading.pdf(wi); });
+      by, surface, [&](const Vec3& wi) { return shading.eval(wi); }, [&](const Vec3& wi) { return shading.pdf(wi); });
 }
 
 // One path, vertex by vertex.
@@ -209,7 +219,7 @@ class PathTracer {
     const bool mirrored = mirrored_;
     if (on_diffuse_ && !tell_diffuse(surface, -ray.direction, distance)) return Step::kEnd;
     const Shading shading(surface, -ray.direction);
-    const FromEmitter from = sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
+    const FromEmitter from = sample_lights_bsdf({t_, sampler_, rays_}, surface, shading);
     (mirrored_ && from.near ? light.lamps : light.scattered) += throughput_ * from.light;
     book(t_, mirrored_ && from.near ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction,
          throughput_ * from.light);
@@ -236,7 +246,7 @@ class PathTracer {
 
   void add_mirrored(const SurfacePoint& surface, const Shading& shading, int bounce, PathLight& light) {
     sample_mirrored(
-        t_, surface, sampler_, rays_, t_.options.max_bounces - bounce - 1,
+        {t_, sampler_, rays_}, surface, t_.options.max_bounces - bounce - 1,
         [&](const Vec3& wi) { return shading.eval(wi); },
         [&](const Vec3&, std::uint32_t group, const Vec3& from) {
           light.scattered += throughput_ * from;
@@ -265,17 +275,19 @@ class PathTracer {
 };
 
 // Light from lamps and by one sampled lobe; on_diffuse: may be null.
-PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
-                        std::uint64_t& rays, const OnDiffuse* on_diffuse) {
+PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Vec3& wo, const OnDiffuse* on_diffuse) {
+  const Transport& t = by.transport;
+  Sampler& sampler = by.sampler;
+  std::uint64_t& rays = by.rays;
   PathLight light;
   if (!surface.reflects) return light;
   const Shading shading(surface, wo);
-  const FromEmitter from = sample_lights_bsdf(t, surface, shading, sampler, rays);
+  const FromEmitter from = sample_lights_bsdf(by, surface, shading);
   (on_diffuse && from.near ? light.lamps : light.scattered) += from.light;
   book(t, from.near ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction, from.light);
   if (t.listener) t.listener->add("lamps", from.light);
   sample_mirrored(
-      t, surface, sampler, rays, t.options.max_bounces - 1, [&](const Vec3& wi) { return shading.eval(wi); },
+      by, surface, t.options.max_bounces - 1, [&](const Vec3& wi) { return shading.eval(wi); },
       [&](const Vec3&, std::uint32_t group, const Vec3& mirrored) {
         light.scattered += mirrored;
         if (t.book) t.book->add(LightBook::kScattered, group, mirrored);
@@ -309,7 +321,7 @@ PathLight trace_to_diffuse(const Transport& t, const TracedRay& traced, Sampler&
 
 Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays) {
-  return reflect_light(t, surface, wo, sampler, rays, nullptr).scattered;
+  return reflect_light({t, sampler, rays}, surface, wo, nullptr).scattered;
 }
 
 Vec3 refracted_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
@@ -323,16 +335,17 @@ Vec3 refracted_light(const Transport& t, const SurfacePoint& surface, const Vec3
   return path.follow({spawn_origin(surface, direction), direction}, 0, 1, sample->weight).scattered;
 }
 
-PathLight specular_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
-                         std::uint64_t& rays, const OnDiffuse& on_diffuse) {
-  SurfacePoint specular = surface;
+PathLight specular_light(const Transport& t, const ReflectingPoint& seen, Sampler& sampler, std::uint64_t& rays,
+                         const OnDiffuse& on_diffuse) {
+  SurfacePoint specular = seen.surface;
   specular.shade.diffuse = specular.shade.transmission = Vec3(0);
-  return reflect_light(t, specular, wo, sampler, rays, &on_diffuse);
+  return reflect_light({t, sampler, rays}, specular, seen.wo, &on_diffuse);
 }
 
 IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surface, Sampler& sampler,
                                    std::uint64_t& rays, bool directional) {
   IrradianceSample s;
+  const Tracing by{t, sampler, rays};
   const Shading shading(surface, surface.normal);
   const auto density = [&](const Vec3& wi) {
     return directional ? shading.both(wi, [](const Vec3& w) { return linear_hemisphere_pdf(w.z); })
@@ -346,7 +359,7 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
   Vec3 towards(0);
   float light_cosine = 0;
   s.direct = sample_lights(
-                 t, surface, sampler, rays,
+                 by, surface,
                  [&](const Vec3& wi) {
                    towards = wi;
                    light_cosine = shading.cosine(wi);
@@ -357,7 +370,7 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
   if (t.listener) t.listener->add("lamps", s.direct);
   if (directional && light_cosine > 0) add_moments(s.direct / light_cosine, towards);
   sample_mirrored(
-      t, surface, sampler, rays, t.options.max_bounces, [&](const Vec3& wi) { return Vec3(shading.cosine(wi)); },
+      by, surface, t.options.max_bounces, [&](const Vec3& wi) { return Vec3(shading.cosine(wi)); },
       [&](const Vec3& from, std::uint32_t, const Vec3& mirrored) {
         s.direct += mirrored;
         if (t.listener) t.listener->add("mirrored lamps", mirrored);

@@ -140,10 +140,15 @@ Vec3 reflected_light(const Transport& transport, const SurfacePoint& surface, co
 Vec3 refracted_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays);
 
+// A surface and where it is seen from.
+struct ReflectingPoint {
+  const SurfacePoint& surface;
+  const Vec3& wo;
+};
 // The part of what reflected_light() has that leaves by specular lobes. Diffuse reflection met on the way is left to
 // the caller as in trace_to_diffuse(); the surface's own is not told. All of it is `scattered` or of `lamps`.
-PathLight specular_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
-                         std::uint64_t& rays, const OnDiffuse& on_diffuse);
+PathLight specular_light(const Transport& transport, const ReflectingPoint& seen, Sampler& sampler, std::uint64_t& rays,
+                         const OnDiffuse& on_diffuse);
 
 // One estimate of the irradiance at a point, lux: light sampling and a cosine-distributed ray, combined by MIS.
 struct IrradianceSample {

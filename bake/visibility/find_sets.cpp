@@ -355,20 +355,17 @@ std::uint32_t eye_cell_side(std::span<const WalkGrid> grids, const VisibilityOpt
   return side;
 }
 
-Result<std::vector<std::uint8_t>> find_visible_sets(const GroupedScene& scene, std::span<const WalkGrid> grids,
-                                                    std::uint32_t side, const VisibilityOptions& options,
-                                                    Context& context, std::uint64_t& rays) {
+Result<FoundSets> find_visible_sets(const GroupedScene& scene, std::span<const WalkGrid> grids, std::uint32_t side,
+                                    const VisibilityOptions& options, Context& context) {
   ORIEL_TRY(const std::vector<CellOfEyes> cells, eyes_by_cell(scene.accel, grids, side, kEyes, context));
   VisibleSetFinder finder(scene, cells, options, context.seed);
   ORIEL_TRY_VOID(parallel_for(context, "visibility", cells.size(), [&](std::size_t c) { finder.look(c); }));
   ORIEL_TRY_VOID(follow_suspects(finder, cells.size(), context));
-  rays += finder.rays();
-  return finder.sets(cells.size());
+  return FoundSets{finder.sets(cells.size()), finder.rays()};
 }
 
-Result<std::vector<std::uint8_t>> find_reflected_sets(const GroupedScene& scene, std::span<const SeenMirror> mirrors,
-                                                      std::span<const Vec3> eyes, const VisibilityOptions& options,
-                                                      Context& context, std::uint64_t& rays) {
+Result<FoundSets> find_reflected_sets(const GroupedScene& scene, std::span<const SeenMirror> mirrors,
+                                      std::span<const Vec3> eyes, const VisibilityOptions& options, Context& context) {
   std::vector<CellOfEyes> cells;
   for (const SeenMirror& mirror : mirrors) {
     CellOfEyes& cell = cells.emplace_back();
@@ -383,8 +380,7 @@ Result<std::vector<std::uint8_t>> find_reflected_sets(const GroupedScene& scene,
   VisibleSetFinder finder(scene, cells, more, context.seed, mirrors);
   ORIEL_TRY_VOID(parallel_for(context, "reflected", cells.size(), [&](std::size_t c) { finder.look(c); }));
   ORIEL_TRY_VOID(follow_suspects(finder, cells.size(), context));
-  rays += finder.rays();
-  return finder.sets(cells.size());
+  return FoundSets{finder.sets(cells.size()), finder.rays()};
 }
 
 }  // namespace oriel

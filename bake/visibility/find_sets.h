@@ -26,10 +26,13 @@ struct GroupedScene {
 // Walk cells along each side of an eye cell.
 std::uint32_t eye_cell_side(std::span<const WalkGrid> grids, const VisibilityOptions& options);
 
-// Sets as VisibleSets::seen, for eye cells of `side` walk cells. Adds to `rays`. Error kStopped.
-Result<std::vector<std::uint8_t>> find_visible_sets(const GroupedScene& scene, std::span<const WalkGrid> grids,
-                                                    std::uint32_t side, const VisibilityOptions& options,
-                                                    Context& context, std::uint64_t& rays);
+struct FoundSets {
+  std::vector<std::uint8_t> seen;  // as VisibleSets::seen
+  std::uint64_t rays = 0;          // traced
+};
+// For eye cells of `side` walk cells. Error kStopped.
+Result<FoundSets> find_visible_sets(const GroupedScene& scene, std::span<const WalkGrid> grids, std::uint32_t side,
+                                    const VisibilityOptions& options, Context& context);
 
 // A planar mirror that shows the scene to eyes.
 struct SeenMirror {
@@ -39,9 +42,8 @@ struct SeenMirror {
 };
 
 // By mirror one set as above: the groups of which an eye (scene space) may see anything in it. Eyes are mirrored, and
-// their lines of sight begin where they cross the mirror. Adds to `rays`. Error kStopped.
-Result<std::vector<std::uint8_t>> find_reflected_sets(const GroupedScene& scene, std::span<const SeenMirror> mirrors,
-                                                      std::span<const Vec3> eyes, const VisibilityOptions& options,
-                                                      Context& context, std::uint64_t& rays);
+// their lines of sight begin where they cross the mirror. Error kStopped.
+Result<FoundSets> find_reflected_sets(const GroupedScene& scene, std::span<const SeenMirror> mirrors,
+                                      std::span<const Vec3> eyes, const VisibilityOptions& options, Context& context);
 
 }  // namespace oriel

@@ -33,13 +33,13 @@ std::vector<Vec3> eyes_of(const EyeRegion& region, const Scene& scene, std::uint
 
 // What one ray meets on its way: surfaces, panes that it goes on through, and one mirror that turns it. A pane or a
 // mirror that only lets a part of the light through does so to as many rays.
-void follow(const Accel& accel, Ray ray, Hit hit, Sampler& sampler, float nearest, std::vector<Sight>& out) {
+void follow(const Accel& accel, Ray ray, Hit hit, Sampler& sampler, std::vector<Sight>& out) {
   const Scene& scene = accel.scene();
   bool mirrored = false;
   float way = 0;
   for (int step = 0; hit; ++step) {
     way += hit.distance;
-    out.push_back({hit.triangle, std::max(way, nearest)});
+    out.push_back({hit.triangle, way});
     const SceneMaterial& material = scene.material_of(hit.triangle);
     const bool may_mirror = !mirrored && !material.unlit && material.roughness * material.roughness <= kMirrorAlpha;
     if (step == kPanes || !(may_mirror || may_transmit(material))) return;
@@ -78,8 +78,9 @@ Result<ViewImportance> find_view_importance(const Accel& accel, const EyeRegion&
     accel.intersect(rays, hits);
     for (std::uint32_t k = 0; k < options.directions; ++k) {
       Sampler sampler(mix64(context.seed + ~kSeed), e + 1, k);
-      follow(accel, rays[k], hits[k], sampler, nearest, seen[e]);
+      follow(accel, rays[k], hits[k], sampler, seen[e]);
     }
+    for (Sight& sight : seen[e]) sight.distance = std::max(sight.distance, nearest);
     return std::uint64_t{options.directions} + seen[e].size();
   };
   loop.results = [&](std::size_t e, Archive& archive) { archive(seen[e]); };

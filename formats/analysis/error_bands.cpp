@@ -8,7 +8,7 @@
 #include "formats/analysis/texel_diff.h"
 #include "formats/analysis/texel_places.h"
 #include "formats/core/color.h"
-#include "formats/metrics/contrast_sensitivity.h"
+#include "formats/image/contrast_sensitivity.h"
 
 namespace oriel {
 namespace {

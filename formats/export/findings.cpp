@@ -72,8 +72,8 @@ class Findings {
   std::string html_;
 };
 
-void add_texts(const Pack& pack, const Json& plan, const char* list, const char* what, const Limits& limits,
-               Findings& out) {
+void add_texts(const Pack& pack, const Json& plan, const std::string& what, const Limits& limits, Findings& out) {
+  const std::string list = what + "s";
   if (!plan.contains(list) || !plan[list].is_array()) return;
   std::size_t shown = 0;
   for (const Json& text : plan[list]) {
@@ -125,8 +125,8 @@ std::string findings_html(const Pack& pack, const Limits& limits) {
   const Json plan = Json::parse(pack.plan, nullptr, false);
   if (!plan.is_object()) return {};
   Findings out(pack);
-  add_texts(pack, plan, "findings", "finding", limits, out);
-  add_texts(pack, plan, "warnings", "warning", limits, out);
+  add_texts(pack, plan, "finding", limits, out);
+  add_texts(pack, plan, "warning", limits, out);
   add_worst(pack, plan, out);
   if (out.empty()) return {};
   return "<h2>Findings</h2>\n<p class=\"quiet\">What the bake warned of and found, and where it was off most, with the "

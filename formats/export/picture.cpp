@@ -4,8 +4,8 @@
 
 #include "formats/core/color.h"
 #include "formats/core/text.h"
+#include "formats/image/display.h"
 #include "formats/image/png.h"
-#include "formats/metrics/display.h"
 
 namespace oriel::report {
 namespace {

@@ -45,7 +45,7 @@ Raster reduced(std::uint32_t width, std::uint32_t height, std::uint32_t longest,
 // The last row first.
 Raster flipped(const Raster& raster);
 
-// The exposure that suits all of them: what is shown as white (formats/metrics/display.h).
+// The exposure that suits all of them: what is shown as white (formats/image/display.h).
 float white_of(std::span<const Raster> rasters);
 
 // <img> elements with the picture inside; what is not known is light grey. Text is escaped here.

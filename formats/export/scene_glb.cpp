@@ -5,8 +5,8 @@
 #include "formats/export/glb.h"
 #include "formats/export/lightmap_texture.h"
 #include "formats/export/shown_page.h"
+#include "formats/image/display.h"
 #include "formats/image/png.h"
-#include "formats/metrics/display.h"
 #include "formats/query/camera.h"
 
 namespace oriel {

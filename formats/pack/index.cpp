@@ -278,8 +278,4 @@ Result<Bytes> stored_head(std::span<const std::byte> front, const SectionInfo& s
   return enough ? head : Bytes();
 }
 
-Result<Bytes> section_head(std::span<const std::byte> file, const SectionInfo& section, std::size_t bytes) {
-  return stored_head(stored_bytes(file, section), section, bytes);
-}
-
 }  // namespace oriel

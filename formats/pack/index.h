@@ -62,10 +62,8 @@ Result<RawBytes> decompressed(std::span<const std::byte> stored, const SectionIn
 Status decompress(std::span<const std::byte> stored, const SectionInfo& section, std::span<std::byte> to);
 
 // The first of them, of a section that check_section accepts: at most `bytes`, fewer where the section holds fewer.
-// What follows in the section is not looked at.
-Result<Bytes> section_head(std::span<const std::byte> file, const SectionInfo& section, std::size_t bytes);
-// The same of the beginning of the stored bytes, as much of it as is there; empty where that is too little of a section
-// that has more.
+// What follows in the section is not looked at. front: of the stored bytes, as much as is there; empty where that is
+// too little of a section that has more.
 Result<Bytes> stored_head(std::span<const std::byte> front, const SectionInfo& section, std::size_t bytes);
 
 }  // namespace oriel

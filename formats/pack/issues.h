@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <concepts>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -15,6 +16,24 @@
 #include "formats/pack/validate.h"
 
 namespace oriel {
+
+// What was found, in a message.
+inline std::string text_of(float v) {
+  return fmt::format("{}", v);
+}
+inline std::string text_of(const Vec2& v) {
+  return fmt::format("({}, {})", v.x, v.y);
+}
+inline std::string text_of(const Vec3& v) {
+  return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
+inline std::string text_of(const Vec4& v) {
+  return fmt::format("({}, {}, {}), {}", v.x, v.y, v.z, v.w);
+}
+template <std::unsigned_integral T>
+std::string text_of(T v) {
+  return fmt::format("{}", v);
+}
 
 class IssueList {
  public:
@@ -30,15 +49,15 @@ class IssueList {
     issues.push_back({number, Severity::kWarning, section_, fmt::format(format, std::forward<Args>(args)...), kind_});
   }
   // One error for all elements that are not good: "3 of 120 vertices: the first is 7, found …, expected …".
-  template <class Element, class Good, class Text>
-  void each(int number, const char* elements, const std::vector<Element>& values, const Good& good, const Text& found,
+  template <class Element, class Good>
+  void each(int number, const char* elements, const std::vector<Element>& values, const Good& good,
             const char* expected) {
     std::size_t bad = 0, first = 0;
     for (const Element& value : values) bad += !good(value);
     if (bad == 0) return;
     while (good(values[first])) ++first;
     error(number, "{} of {} {}: the first is number {}, found {}, expected {}", bad, values.size(), elements, first,
-          found(values[first]), expected);
+          text_of(values[first]), expected);
   }
 
   // check(i, list) for i below count, side by side where there is much to look at; issues come by i.
@@ -55,16 +74,6 @@ class IssueList {
   std::string section_;
   std::uint32_t kind_ = 0;
 };
-
-inline std::string text_of(float v) {
-  return fmt::format("{}", v);
-}
-inline std::string text_of(const Vec2& v) {
-  return fmt::format("({}, {})", v.x, v.y);
-}
-inline std::string text_of(const Vec3& v) {
-  return fmt::format("({}, {}, {})", v.x, v.y, v.z);
-}
 
 inline bool is_finite(const Vec2& v) {
   return std::isfinite(v.x) && std::isfinite(v.y);

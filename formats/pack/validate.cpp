@@ -5,6 +5,11 @@
 #include "formats/pack/issues.h"
 
 namespace oriel {
+
+static std::string text_of(const CameraKey& key) {
+  return fmt::format("time {}, eye {}, forward {}", key.time_s, text_of(key.eye), text_of(key.forward));
+}
+
 namespace {
 
 // Inside the half-open range of a table, or -1.
@@ -56,9 +61,6 @@ void validate_path(std::size_t i, const CameraPath& path, IssueList& list) {
       [](const CameraKey& key) {
         return std::isfinite(key.time_s) && is_finite(key.eye) && is_finite(key.forward) && length2(key.forward) > 0;
       },
-      [](const CameraKey& key) {
-        return fmt::format("time {}, eye {}, forward {}", key.time_s, text_of(key.eye), text_of(key.forward));
-      },
       "finite numbers and a direction");
   for (std::size_t k = 1; k < path.keys.size(); ++k)
     if (!(path.keys[k].time_s >= path.keys[k - 1].time_s)) {
@@ -98,28 +100,24 @@ void validate_mesh(const Pack& pack, const Mesh& mesh, IssueList& list) {
     list.error(102, "found {} vertices and {} indices, expected less than 2^32", n, mesh.indices.size());
   if (!std::isfinite(mesh.origin.x) || !std::isfinite(mesh.origin.y) || !std::isfinite(mesh.origin.z))
     list.error(103, "found origin ({}, {}, {}), expected finite numbers", mesh.origin.x, mesh.origin.y, mesh.origin.z);
-  const auto text2 = [](const Vec2& v) { return text_of(v); };
-  const auto text3 = [](const Vec3& v) { return text_of(v); };
   list.each(
-      103, "positions", mesh.positions, [](const Vec3& v) { return is_finite(v); }, text3, "finite numbers");
+      103, "positions", mesh.positions, [](const Vec3& v) { return is_finite(v); }, "finite numbers");
   list.each(
-      104, "normals", mesh.normals, [](const Vec3& v) { return std::abs(glm::length(DVec3(v)) - 1) <= 1e-3; }, text3,
+      104, "normals", mesh.normals, [](const Vec3& v) { return std::abs(glm::length(DVec3(v)) - 1) <= 1e-3; },
       "length 1");
   list.each(
-      105, "texture coordinates", mesh.uvs, [](const Vec2& v) { return is_finite(v); }, text2, "finite numbers");
+      105, "texture coordinates", mesh.uvs, [](const Vec2& v) { return is_finite(v); }, "finite numbers");
   list.each(
-      105, "coordinates of normal maps", mesh.normal_uvs, [](const Vec2& v) { return is_finite(v); }, text2,
-      "finite numbers");
+      105, "coordinates of normal maps", mesh.normal_uvs, [](const Vec2& v) { return is_finite(v); }, "finite numbers");
   list.each(
       105, "lightmap coordinates", mesh.lightmap_uvs,
-      [](const Vec2& v) { return within(v.x, 0, 1) && within(v.y, 0, 1); }, text2, "0 to 1");
+      [](const Vec2& v) { return within(v.x, 0, 1) && within(v.y, 0, 1); }, "0 to 1");
   list.each(
       112, "tangents", mesh.tangents,
       [](const Vec4& t) { return t.w == 0 || (std::abs(t.w) == 1 && std::abs(glm::length(DVec3(t)) - 1) <= 1e-3); },
-      [](const Vec4& t) { return fmt::format("{}, {}", text_of(Vec3(t)), t.w); }, "length 1 and a side of -1, 0 or 1");
+      "length 1 and a side of -1, 0 or 1");
   list.each(
-      106, "indices", mesh.indices, [n](std::uint32_t i) { return i < n; },
-      [](std::uint32_t i) { return fmt::format("{}", i); }, fmt::format("less than {}", n).c_str());
+      106, "indices", mesh.indices, [n](std::uint32_t i) { return i < n; }, fmt::format("less than {}", n).c_str());
   validate_parts(pack, mesh, list);
   if (mesh.indices.empty()) list.warning(111, "has no triangles");
 }

@@ -41,8 +41,7 @@ void validate_group(const Pack& pack, const LightGroup& group, IssueList& list) 
                pack.surround_maps.size(), probes);
   for (const auto* shares : {&group.reflectors, &group.surrounds, &group.probes})
     list.each(
-        764, "shares of maps", *shares, [](const Vec3& v) { return within(v, 0, 1); },
-        [](const Vec3& v) { return text_of(v); }, "0 to 1");
+        764, "shares of maps", *shares, [](const Vec3& v) { return within(v, 0, 1); }, "0 to 1");
 }
 
 // `rest` and codes of a page, or of its details: as many as there are texels.
@@ -50,7 +49,7 @@ void validate_texels(const Pack& pack, std::size_t texels, const std::vector<std
   if (rest.size() != texels) list.error(766, "found brightest groups of {} texels, expected {}", rest.size(), texels);
   list.each(
       767, "brightest groups", rest, [&](std::uint8_t group) { return group < pack.light_groups.size(); },
-      [](std::uint8_t group) { return fmt::format("{}", group); }, "groups of the pack");
+      "groups of the pack");
 }
 
 void validate_page(const Pack& pack, const PageGroups& page, IssueList& list) {

@@ -20,8 +20,6 @@ bool check_area(int number, std::uint32_t width, std::uint32_t height, std::init
   return good;
 }
 
-const auto text1 = [](float v) { return text_of(v); };
-const auto text3 = [](const Vec3& v) { return text_of(v); };
 const auto light = [](const Vec3& v) { return not_negative(v); };
 constexpr std::size_t kMuch = 1 << 17;  // texels: looking at them takes longer than starting threads
 constexpr float kFarthest = 1e18f;      // of lengths and their inverses, so that their squares stay finite
@@ -39,21 +37,21 @@ bool is_rigid(const Mat4& m) {
   return off <= 1e-3 && glm::determinant(r) > 0 && m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
 }
 
-void check_triangles(int number, const Pack& pack, std::size_t i, const std::string& name,
-                     const std::vector<std::uint32_t>& indices, IssueList& list) {
+template <class AnyReflector>
+void check_triangles(int number, const Pack& pack, std::size_t i, const AnyReflector& r, IssueList& list) {
+  const std::vector<std::uint32_t>& indices = r.indices;
   const auto bad = std::count_if(indices.begin(), indices.end(),
                                  [&](std::uint32_t index) { return index >= pack.mesh.positions.size(); });
   if (bad > 0 || indices.size() % 3 != 0)
     list.error(number,
                "reflector {} ('{}'): found {} indices, {} of them out of range, expected a multiple of 3 below {}", i,
-               name, indices.size(), bad, pack.mesh.positions.size());
+               r.name, indices.size(), bad, pack.mesh.positions.size());
 }
 
 // Codes of validity, 0 to 2.
 void check_validity(int number, const std::vector<std::uint8_t>& valid, IssueList& list) {
   list.each(
-      number, "pixels of validity", valid, [](std::uint8_t v) { return v <= 2; },
-      [](std::uint8_t v) { return fmt::format("{}", v); }, "0, 1 or 2");
+      number, "pixels of validity", valid, [](std::uint8_t v) { return v <= 2; }, "0, 1 or 2");
 }
 
 void validate_reflector(const Pack& pack, std::size_t i, IssueList& list) {
@@ -69,7 +67,7 @@ void validate_reflector(const Pack& pack, std::size_t i, IssueList& list) {
   if (!not_negative(r.area_m2) || !not_negative(r.flatness_m))
     list.error(404, "reflector {} ('{}'): found area {} and flatness {}, expected {}", i, r.name, r.area_m2,
                r.flatness_m, kLight);
-  check_triangles(405, pack, i, r.name, r.indices, list);
+  check_triangles(405, pack, i, r, list);
   if (std::uint64_t{r.first_map} + r.map_count > pack.radiance_maps.size()) {
     list.error(406, "reflector {} ('{}'): found radiance maps {} to {}, expected at most {}", i, r.name, r.first_map,
                std::uint64_t{r.first_map} + r.map_count, pack.radiance_maps.size());
@@ -162,8 +160,8 @@ void validate_pixels(const LightmapPage& page, IssueList& list) {
   if (!check_area(301, page.width, page.height, {page.irradiance.size(), page.standard_error.size(), page.state.size()},
                   list))
     return;
-  list.each(302, "texels of irradiance", page.irradiance, light, text3, kLight);
-  list.each(303, "texels of standard error", page.standard_error, light, text3, kLight);
+  list.each(302, "texels of irradiance", page.irradiance, light, kLight);
+  list.each(303, "texels of standard error", page.standard_error, light, kLight);
   const IVec2 size(page.width, page.height), details(page.detail_width, page.detail_height);
   if (page.detail.size() != std::size_t{page.detail_width} * page.detail_height || page.detail_width > kMaxDetailSide ||
       page.detail_height > kMaxDetailSide || page.cell.size() != (page.detail.empty() ? 0 : page.state.size())) {
@@ -172,11 +170,11 @@ void validate_pixels(const LightmapPage& page, IssueList& list) {
                page.detail.size(), page.cell.size(), page.detail_width, page.detail_height, page.state.size());
     return;
   }
-  list.each(305, "points of details", page.detail, light, text3, kLight);
+  list.each(305, "points of details", page.detail, light, kLight);
   validate_cells(page.cell, size, details, list);
   if (page.direction.empty() || !check_area(304, page.width, page.height, {page.direction.size()}, list)) return;
   list.each(
-      304, "directions", page.direction, [](const Vec3& d) { return is_finite(d) && length2(d) <= 1.001f; }, text3,
+      304, "directions", page.direction, [](const Vec3& d) { return is_finite(d) && length2(d) <= 1.001f; },
       "length 1 at most");
 }
 
@@ -202,9 +200,9 @@ void validate_radiance_maps(const Pack& pack, ImagePixels pixels, IssueList& all
 void validate_pixels(const RadianceMap& map, IssueList& list) {
   if (!check_area(411, map.width, map.height, {map.radiance.size(), map.disparity.size(), map.valid.size()}, list))
     return;
-  list.each(415, "pixels of radiance", map.radiance, light, text3, kLight);
+  list.each(415, "pixels of radiance", map.radiance, light, kLight);
   list.each(
-      416, "pixels of disparity", map.disparity, [](float d) { return within(d, 0, 1); }, text1, "0 to 1");
+      416, "pixels of disparity", map.disparity, [](float d) { return within(d, 0, 1); }, "0 to 1");
   check_validity(417, map.valid, list);
 }
 
@@ -215,7 +213,7 @@ void validate_curved_reflectors(const Pack& pack, IssueList& list) {
     if (r.material >= pack.materials.size() || r.map >= pack.surround_maps.size())
       list.error(431, "curved reflector {} ('{}'): found material {} and map {}, expected less than {} and {}", i,
                  r.name, r.material, r.map, pack.materials.size(), pack.surround_maps.size());
-    check_triangles(432, pack, i, r.name, r.indices, list);
+    check_triangles(432, pack, i, r, list);
   }
 }
 
@@ -236,9 +234,9 @@ void validate_surround_maps(const Pack& pack, ImagePixels pixels, IssueList& lis
 void validate_pixels(const SurroundMap& map, IssueList& list) {
   if (!check_area(442, map.size, map.size, {map.radiance.size(), map.inverse_distance.size(), map.valid.size()}, list))
     return;
-  list.each(443, "texels of radiance", map.radiance, light, text3, kLight);
+  list.each(443, "texels of radiance", map.radiance, light, kLight);
   list.each(
-      444, "texels of inverse distance", map.inverse_distance, [](float d) { return within(d, 0, kFarthest); }, text1,
+      444, "texels of inverse distance", map.inverse_distance, [](float d) { return within(d, 0, kFarthest); },
       "0 to 1e18");
   check_validity(445, map.valid, list);
 }

@@ -7,8 +7,6 @@ namespace oriel {
 namespace {
 
 constexpr const char* kLight = "finite numbers from 0 up";
-const auto text1 = [](float v) { return text_of(v); };
-const auto text3 = [](const Vec3& v) { return text_of(v); };
 
 // size² numbers from 0 up with sum 1.
 void validate_weights(std::size_t i, std::uint32_t size, const std::vector<float>& weights, IssueList& list) {
@@ -19,7 +17,7 @@ void validate_weights(std::size_t i, std::uint32_t size, const std::vector<float
   }
   const std::size_t before = list.issues.size();
   list.each(
-      503, "kernel weights", weights, [](float w) { return not_negative(w); }, text1, kLight);
+      503, "kernel weights", weights, [](float w) { return not_negative(w); }, kLight);
   double sum = 0;
   for (const float w : weights) sum += w;
   if (list.issues.size() == before && !(std::abs(sum - 1) <= 1e-4))
@@ -97,8 +95,8 @@ void validate_fresnel_maps(const Pack& pack, IssueList& list) {
                  "2, and a square",
                  i, map.table.size(), map.sphere.size(), map.sphere_size);
     const auto share = [](const Vec3& v) { return within(v, 0, 1); };
-    list.each(603, "Fresnel table entries", map.table, share, text3, "0 to 1");
-    list.each(603, "Fresnel sphere texels", map.sphere, share, text3, "0 to 1");
+    list.each(603, "Fresnel table entries", map.table, share, "0 to 1");
+    list.each(603, "Fresnel sphere texels", map.sphere, share, "0 to 1");
   }
   list.in_section(kFresnelSection);
   for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
@@ -106,7 +104,7 @@ void validate_fresnel_maps(const Pack& pack, IssueList& list) {
     if (factor.size() == 1 || factor.size() > kMaxSide)
       list.error(604, "Fresnel map {}: found {} factors, expected none or 2 to {}", i, factor.size(), kMaxSide);
     list.each(
-        605, "Fresnel factors", factor, [](const Vec3& v) { return within(v, 0, 1); }, text3, "0 to 1");
+        605, "Fresnel factors", factor, [](const Vec3& v) { return within(v, 0, 1); }, "0 to 1");
   }
 }
 
@@ -122,7 +120,7 @@ void validate_split_reflectance(const Pack& pack, IssueList& list) {
   list.each(
       612, "entries", split.table,
       [](const Vec2& v) { return within(v.x, 0, 1) && within(v.y, 0, 1) && v.x + v.y <= 1.001f; },
-      [](const Vec2& v) { return text_of(v); }, "0 to 1, and their sum at most 1");
+      "0 to 1, and their sum at most 1");
 }
 
 }  // namespace oriel

@@ -4,6 +4,12 @@
 #include "formats/pack/issues.h"
 
 namespace oriel {
+
+static std::string text_of(const LightProbe& p) {
+  return fmt::format("place {}, {} coefficients, {} depths, lights {:#x} and {:#x}", text_of(p.position), p.sh.size(),
+                     p.depth.size(), p.bright, p.kept);
+}
+
 namespace {
 
 constexpr float kLimit = 1e18f;  // of lengths, so that their squares stay finite
@@ -79,10 +85,6 @@ void validate_probes(const LightField& field, IssueList& list) {
                std::all_of(p.depth.begin(), p.depth.end(),
                            [](const Vec2& d) { return within(d.x, 0, 1) && within(d.y, 0, 1); }) &&
                ((p.bright | p.kept) & ~known) == 0 && (p.bright & p.kept) == 0;
-      },
-      [](const LightProbe& p) {
-        return fmt::format("place {}, {} coefficients, {} depths, lights {:#x} and {:#x}", text_of(p.position),
-                           p.sh.size(), p.depth.size(), p.bright, p.kept);
       },
       "finite numbers, as many as the field says, and lights of its list in one set only");
 }

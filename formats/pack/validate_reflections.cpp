@@ -79,8 +79,7 @@ void validate_map_meshes(const Pack& pack, IssueList& list) {
     const MapMesh& mesh = pack.map_meshes[i];
     list.in_section(kMapMeshSection, i);
     list.each(
-        428, "vertices", mesh.vertices, [](const Vec3& v) { return within(v, 0, 1); },
-        [](const Vec3& v) { return text_of(v); }, "0 to 1");
+        428, "vertices", mesh.vertices, [](const Vec3& v) { return within(v, 0, 1); }, "0 to 1");
     const auto bad = std::count_if(mesh.indices.begin(), mesh.indices.end(),
                                    [&](std::uint32_t v) { return v >= mesh.vertices.size(); });
     if (bad > 0 || mesh.indices.size() % 3 != 0)
@@ -150,7 +149,7 @@ void validate_walk_grids(const Pack& pack, IssueList& list) {
                  i, text_of(g.lower), g.cell_m, g.eye_height_m);
     list.each(
         723, "floor heights", g.floor_y, [](float y) { return std::isnan(y) || within(y, -kLimit, kLimit); },
-        [](float y) { return text_of(y); }, "finite numbers, or none");
+        "finite numbers, or none");
   }
 }
 

@@ -6,6 +6,10 @@
 #include "formats/pack/pack.h"
 
 namespace oriel {
+
+static std::string text_of(const TriangleRun& run) {
+  return fmt::format("{} indices of group {}", run.index_count, run.group);
+}
 namespace {
 
 constexpr float kMostAside_m = 100;  // of eyes over and under the height that grids tell
@@ -16,7 +20,6 @@ void validate_runs(const Pack& pack, IssueList& list) {
   list.each(
       751, "runs", sets.runs,
       [&](const TriangleRun& r) { return r.group < sets.groups && r.index_count > 0 && r.index_count % 3 == 0; },
-      [](const TriangleRun& r) { return fmt::format("{} indices of group {}", r.index_count, r.group); },
       fmt::format("triangles of a group below {}", sets.groups).c_str());
   std::vector<std::uint64_t> ends;
   std::uint64_t end = 0;

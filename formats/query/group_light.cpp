@@ -26,11 +26,12 @@ float light_of(std::uint16_t code) {
   return float_from_positive_half(static_cast<std::uint16_t>(code << kGroupCodeShift));
 }
 
-// of(group): its light by texel or point. A texel whose group is the rest keeps the code before, which costs no bytes.
+// of(group): its light by texel or point; rest: by these, 0. A texel whose group is the rest keeps the code before,
+// which costs no bytes.
 template <class Of>
-void divide(std::size_t count, std::size_t groups, const Of& of, float inverse, std::vector<std::uint8_t>& rest,
+void divide(std::size_t groups, const Of& of, float inverse, std::vector<std::uint8_t>& rest,
             const std::function<std::vector<GroupCode>&(std::size_t)>& codes_of) {
-  rest.assign(count, 0);
+  const std::size_t count = rest.size();
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t g = 1; g < groups; ++g)
       if (luminance(of(g)[i]) > luminance(of(rest[i])[i])) rest[i] = static_cast<std::uint8_t>(g);
@@ -67,14 +68,13 @@ PageGroups groups_of_page(const LightmapPage& page, std::uint32_t number,
   const float inverse = std::ldexp(1.0f, -out.exponent);
   out.others.resize(light.size());
   for (std::uint32_t g = 0; g < light.size(); ++g) out.others[g].group = g;
+  out.rest.resize(page.irradiance.size()), out.rest_of_detail.resize(page.detail.size());
   divide(
-      page.irradiance.size(), light.size(),
-      [&](std::size_t g) -> const std::vector<Vec3>& { return light[g][number].irradiance; }, inverse, out.rest,
-      [&](std::size_t g) -> std::vector<GroupCode>& { return out.others[g].light; });
+      light.size(), [&](std::size_t g) -> const std::vector<Vec3>& { return light[g][number].irradiance; }, inverse,
+      out.rest, [&](std::size_t g) -> std::vector<GroupCode>& { return out.others[g].light; });
   divide(
-      page.detail.size(), light.size(),
-      [&](std::size_t g) -> const std::vector<Vec3>& { return light[g][number].detail; }, inverse, out.rest_of_detail,
-      [&](std::size_t g) -> std::vector<GroupCode>& { return out.others[g].detail; });
+      light.size(), [&](std::size_t g) -> const std::vector<Vec3>& { return light[g][number].detail; }, inverse,
+      out.rest_of_detail, [&](std::size_t g) -> std::vector<GroupCode>& { return out.others[g].detail; });
   std::erase_if(out.others, [](const GroupTexels& group) { return is_dark(group); });
   return out;
 }

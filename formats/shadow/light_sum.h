@@ -40,9 +40,4 @@ class LightSum {
   Steps steps_;
 };
 
-// The same without shadows, as the paper has it: radiance · π times the polygon's form factor in closed form (Lambert
-// 1760) at every `every`-th texel, bilinear between (Herf 1997, section 4.3.4). corners: of the light,
-// counter-clockwise seen from its front.
-std::vector<float> form_factor_light(const ShadowReceiver& receiver, std::span<const DVec3> corners, int every);
-
 }  // namespace oriel

@@ -16,15 +16,6 @@ struct ShadowReceiver {
   DVec3 center_of(int i, int j) const { return corner + (i + 0.5) * x + (j + 0.5) * y; }
 };
 
-// A parallelogram of two edges, with its front on the side of `facing`.
-ShadowReceiver make_shadow_receiver(const DVec3& corner, const DVec3& edge_x, const DVec3& edge_y, const IVec2& texels,
-                                    const DVec3& facing);
-
-// Herf 1997, section 3.2: the projective matrix that takes the pyramid from `apex` over the receiver to a box. Along x
-// and y it is 0 to 1 over the receiver. z is 1 in its plane, grows towards the apex and is infinite there. All apexes
-// share the image of the receiver, so that hard shadows of many lights lie upon each other.
-DMat4 pyramid_to_box(const ShadowReceiver& receiver, const DVec3& apex);
-
 // The same space for all apexes: texels along x and y, and the distance from the plane in metres, positive in front.
 // From an apex (a.x, a.y, a.z) a point p is seen at (p.xy a.z − a.xy p.z) / (a.z − p.z): the matrix above, two products
 // instead of sixteen.

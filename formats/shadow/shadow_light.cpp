@@ -55,17 +55,6 @@ bool ShadowLight::one_color() const {
       samples, [&](const ShadowLightSample& s) { return glm::cross(s.power, samples.front().power) == Vec3(0); });
 }
 
-ShadowLight sample_parallelogram(const LightParallelogram& light, const Vec3& radiance, int samples) {
-  const DVec3 normal = glm::cross(light.x, light.y);
-  const double area = glm::length(normal);
-  ORIEL_CHECK(area > 0);
-  ShadowLight out{.samples = {}, .normal = normal / area, .double_sided = light.double_sided};
-  for (const DVec2& u : jittered_pattern(samples))
-    out.samples.push_back(
-        {light.corner + u.x * light.x + u.y * light.y, radiance * static_cast<float>(area / samples)});
-  return out;
-}
-
 ShadowLight sample_triangles(const std::vector<LightTriangle>& triangles, const Vec3& radiance, int samples) {
   double total = 0;
   for (const LightTriangle& t : triangles) total += area(t);

@@ -28,13 +28,6 @@ struct ShadowLight {
   bool one_color() const;  // every sample's power is a multiple of the first one's
 };
 
-struct LightParallelogram {
-  DVec3 corner{0}, x{1, 0, 0}, y{0, 1, 0};
-  bool double_sided = false;
-};
-// Shines to the side of x × y.
-ShadowLight sample_parallelogram(const LightParallelogram& light, const Vec3& radiance, int samples);
-
 struct LightTriangle {
   DVec3 a{0}, b{0}, c{0};
 };

@@ -71,15 +71,4 @@ void SoftShadows::run(const Occluders& occluders, const ShadowReceiver& receiver
   }
 }
 
-std::vector<std::uint16_t> count_blocked(const BlockedRows& rows) {
-  std::vector<std::uint16_t> count(static_cast<std::size_t>(rows.width()) * static_cast<std::size_t>(rows.height()));
-  for (int s = 0; s < rows.samples(); ++s)
-    for (int w = 0; w < rows.words(); ++w)
-      for (int y = 0; y < rows.height(); ++y)
-        for (std::uint32_t bits = rows.word(s, w, y); bits != 0; bits &= bits - 1)
-          ++count[static_cast<std::size_t>(y) * static_cast<std::size_t>(rows.width()) +
-                  static_cast<std::size_t>(32 * w + std::countr_zero(bits))];
-  return count;
-}
-
 }  // namespace oriel

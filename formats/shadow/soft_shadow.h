@@ -43,7 +43,4 @@ class SoftShadows {
   BlockedRows rows_;
 };
 
-// By texel, the samples that do not reach it.
-std::vector<std::uint16_t> count_blocked(const BlockedRows& rows);
-
 }  // namespace oriel

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "formats/core/file.h"
+#include "formats/image/comparison.h"
+#include "formats/image/display.h"
 #include "formats/image/png.h"
-#include "formats/metrics/comparison.h"
-#include "formats/metrics/display.h"
 #include "formats/query/camera_spec.h"
 #include "player/app/compare_picture.h"
 #include "player/gpu/headless.h"
@@ -33,11 +33,8 @@ Result<std::uint32_t> supersampling(const PlayArguments& arguments, const FloatI
 // Draws the stages that are compared, as large pictures, and averages them.
 class Stages {
  public:
-  Stages(GpuScene& scene, Renderer& renderer, const View& view, const PlayArguments& arguments,
-         const FrameOptions& options, std::uint32_t n)
-      : scene_(scene), renderer_(renderer), view_(view), options_(options), n_(n) {
-    if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
-  }
+  Stages(GpuScene& scene, Renderer& renderer, const View& view, const FrameOptions& options, std::uint32_t n)
+      : scene_(scene), renderer_(renderer), view_(view), options_(options), n_(n) {}
 
   Result<PlayedFrame> draw() {
     PlayedFrame frame;
@@ -225,12 +222,12 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(options.lamps, lamps_at(scene->pack(), arguments.moves));
   const View view = make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height),
                               bounds_with_movers(*scene, options.poses));
+  if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
   if (!reference.rendered) {
-    if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
     ORIEL_TRY_VOID(renderer->render(*scene, view, options));
     return compare_with_picture(reference, *renderer, arguments);
   }
-  ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, arguments, options, n).draw());
+  ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, options, n).draw());
   return compare_with_rendered(reference, frame, arguments);
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "formats/metrics/display.h"
-#include "formats/metrics/flip.h"
+#include "formats/image/display.h"
+#include "formats/image/flip.h"
 
 namespace oriel {
 

@@ -6,7 +6,7 @@
 
 #include "formats/core/result.h"
 #include "formats/image/image.h"
-#include "formats/metrics/visible.h"
+#include "formats/image/visible.h"
 
 namespace oriel {
 

@@ -58,10 +58,4 @@ gpu::Texture2d upload_texture(TextureData data) {
   return std::move(upload.texture);
 }
 
-gpu::TextureArray upload_array(TextureData data) {
-  TextureUpload upload(std::move(data));
-  upload.step(std::numeric_limits<std::size_t>::max());
-  return std::move(upload.array);
-}
-
 }  // namespace oriel

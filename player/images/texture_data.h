@@ -52,6 +52,5 @@ class TextureUpload {
 };
 
 gpu::Texture2d upload_texture(TextureData data);
-gpu::TextureArray upload_array(TextureData data);
 
 }  // namespace oriel

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "formats/core/color.h"
+#include "formats/image/flip.h"
 #include "formats/image/heat.h"
-#include "formats/metrics/flip.h"
 
 namespace oriel {
 namespace {

@@ -7,7 +7,7 @@
 #include "formats/core/color.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
-#include "formats/metrics/relative_error.h"
+#include "formats/image/relative_error.h"
 #include "formats/query/camera_notes.h"
 #include "player/session/option_names.h"
 

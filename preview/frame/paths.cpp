@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bake/jobs/parallel.h"
-#include "formats/metrics/relative_error.h"
+#include "formats/image/relative_error.h"
 
 namespace oriel {
 namespace {

@@ -56,7 +56,7 @@ class SpecularTracer {
     const float coverage = surface.shade.coverage;
     surface.shade.diffuse = surface.shade.transmission = Vec3(0);
     const Vec3 before = std::exchange(light, Vec3(0));
-    const PathLight lobe = specular_light(transport_, surface, wo, sampler, rays, on_diffuse);
+    const PathLight lobe = specular_light(transport_, {surface, wo}, sampler, rays, on_diffuse);
     return before + coverage * (light + lobe.scattered + lobe.lamps + lobe.emitted + lobe.sky);
   }
 

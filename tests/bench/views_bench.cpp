@@ -39,7 +39,8 @@ std::vector<RadianceMap> uniform_maps(const std::vector<RadianceMap>& planned, s
 Status print_reflector(const ReflectedSurroundings& surroundings, std::uint32_t r, const std::vector<RadianceMap>& maps,
                        std::span<const Vec3> eyes, const Settings& settings, Context& context) {
   const FoundReflector& found = surroundings.reflectors()[r];
-  ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, eyes, settings.samples, context.seed + 1, context));
+  ORIEL_TRY(const auto samples,
+            sample_reflections(surroundings, r, {eyes, settings.samples, context.seed + 1}, context));
   const ViewQuality planned = judge_maps(surroundings, maps, samples, context);
   const std::vector<RadianceMap> uniform = uniform_maps(maps, settings.hemisphere);
   const ViewQuality other = judge_maps(surroundings, uniform, samples, context);

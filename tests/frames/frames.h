@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bake/reference/reference.h"
-#include "formats/metrics/relative_error.h"
+#include "formats/image/relative_error.h"
 
 namespace oriel::test {
 

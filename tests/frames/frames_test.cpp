@@ -6,8 +6,8 @@
 
 #include "bake/import/import.h"
 #include "formats/core/file.h"
+#include "formats/image/display.h"
 #include "formats/image/exr.h"
-#include "formats/metrics/display.h"
 #include "formats/query/camera.h"
 #include "tests/frames/frames.h"
 

@@ -24,12 +24,11 @@ const Arrows kRestsOn = {
     {"formats/core", {}},
     {"formats/cli", {"formats/core"}},
     {"formats/image", {"formats/core"}},
-    {"formats/metrics", {"formats/image"}},
     {"formats/assets", {"formats/core"}},
     {"formats/query", {"formats/assets"}},
     {"formats/shadow", {"formats/core"}},  // shared by bake and player: no scene, no OpenGL
     {"formats/pack", {"formats/query"}},
-    {"formats/analysis", {"formats/pack", "formats/metrics"}},
+    {"formats/analysis", {"formats/pack", "formats/image"}},
     {"formats/export", {"formats/analysis"}},
     {"formats/inspect", {"formats/export"}},
     {"bake/jobs", {"formats/core"}},
@@ -46,13 +45,13 @@ const Arrows kRestsOn = {
     {"bake/material", {"bake/trace"}},
     {"bake/transfer", {"bake/trace"}},
     {"bake/visibility", {"bake/trace"}},
-    {"bake/reference", {"bake/trace", "formats/metrics"}},
+    {"bake/reference", {"bake/trace", "formats/image"}},
     {"bake/run",
      {"bake/import", "bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/visibility",
       "bake/reference", "formats/cli", "formats/pack"}},
     {"bake/plan", {"bake/run"}},
-    {"tools/trade", {"bake/jobs", "formats/analysis"}},  // measures the programs from outside: it knows no stage
-    {"bake/cli", {"bake/plan", "tools/trade"}},
+    {"trade", {"bake/jobs", "formats/analysis"}},  // measures the programs from outside: it knows no stage
+    {"bake/cli", {"bake/plan", "trade"}},
     {"player/gpu", {"formats/core"}},
     {"player/navigation", {"formats/pack"}},
     {"player/images", {"player/gpu", "player/navigation"}},
@@ -65,7 +64,7 @@ const Arrows kRestsOn = {
     {"player/window", {"player/output"}},
     {"player/app", {"player/window"}},
     {"preview/frame", {"bake/import", "bake/reference", "player/passes"}},  // where baker and player meet
-    {"preview/app", {"preview/frame", "bake/run", "player/window"}},
+    {"preview", {"preview/frame", "bake/run", "player/window"}},
     {"scenes/kit", {"formats/core"}},
     {"scenes", {"scenes/kit", "formats/image"}},
 };
@@ -96,7 +95,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/window"}},
-    {"imgui", {"player/window", "preview/app"}},
+    {"imgui", {"player/window", "preview"}},
     {"backends/imgui", {"player/window"}},
     {"CLI/", {"formats/cli", "formats/inspect", "scenes"}},
     {"epoxy/",
@@ -171,7 +170,7 @@ TEST(Layers, ArrowsHaveNoCircles) {
 }
 
 TEST(Layers, FoldersOfSourcesAreInTheTable) {
-  for (const char* top : {"formats", "bake", "player", "preview", "scenes", "tools"})
+  for (const char* top : {"formats", "bake", "player", "preview", "scenes", "trade"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
       const std::string folder = fs::relative(entry.path().parent_path(), kRoot).string();
       EXPECT_TRUE(!is_source(entry.path()) || kArrows.contains(folder)) << entry.path();

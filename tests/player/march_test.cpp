@@ -232,6 +232,11 @@ TEST_F(March, TheShaderDoesTheSame) {
   const std::vector<RadianceMap> maps{capture({0, 0, -1}, 48, room), capture({0.3f, 0.2f, -0.8f}, 96, room_with_post)};
   const std::array layers{&maps[0], &maps[1]};
   MapArrayData data = MapArrayData::make(layers);
+  const auto upload_array = [](TextureData texels) {
+    TextureUpload upload(std::move(texels));
+    upload.step(std::numeric_limits<std::size_t>::max());
+    return std::move(upload.array);
+  };
   const MapArray array{upload_array(std::move(data.light)),
                        upload_array(std::move(data.disparity)),
                        upload_array(std::move(data.ranges)),

@@ -4,6 +4,7 @@
 #include "formats/query/lobe_light.h"
 #include "player/passes/mirrored_view.h"
 #include "tests/player/frame_fixture.h"
+#include "tests/player/twins/reflected_polygon.h"
 
 namespace oriel {
 namespace {

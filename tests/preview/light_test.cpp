@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bake/reference/reference.h"
-#include "formats/metrics/relative_error.h"
+#include "formats/image/relative_error.h"
 #include "formats/query/camera.h"
 #include "player/gpu/headless.h"
 #include "preview/frame/blend_paths.h"

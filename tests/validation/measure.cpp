@@ -123,8 +123,8 @@ class BakedTexture {
         const std::uint32_t triangle = triangle_at(accel_, p);
         const Vec2 at = barycentric_of(scene_, triangle, p.position);
         const Vec3 n(p.normal);
-        m.value += p.weight * baked_irradiance(atlas_, radiosity_.pages, triangle, at, n, n)[r.channel];
-        m.error += p.weight * baked_irradiance(atlas_, errors_, triangle, at, n, n)[r.channel];
+        m.value += p.weight * baked_irradiance(atlas_, radiosity_.pages, {triangle, at}, n, n)[r.channel];
+        m.error += p.weight * baked_irradiance(atlas_, errors_, {triangle, at}, n, n)[r.channel];
       }
     } else {
       m = over_texels(r);

@@ -54,7 +54,7 @@ class CachedEstimator : public LightEstimator {
   Status refine(const Goal& goal) override {
     if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
     if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
-    ORIEL_TRY_VOID(refine_to(goal.error / noise_of_hours(around_, shares_, direct_, gathered_)));
+    ORIEL_TRY_VOID(refine_to(goal.error / noise_of_hours(around_, shares_, {direct_, gathered_})));
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
     if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
     return {};
@@ -73,14 +73,14 @@ class CachedEstimator : public LightEstimator {
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
-    write_booked(texels_, filter_groups(texels_, graph_, direct_, gathered_, options_.filter, context_), groups);
+    write_booked(texels_, filter_groups(texels_, graph_, {direct_, gathered_}, options_.filter, context_), groups);
     return true;
   }
 
   std::optional<TexelLight> texel_light() const override {
-    BookedLight booked;
-    std::vector<Vec3> beside = smooth_beside(lamps_, texels_, graph_, gathered_, context_, booked);
-    BookedLight reflected = filter_groups(texels_, graph_, gathered_.booked_halves(), options_.filter, context_, false);
+    auto [beside, booked] = smooth_beside(lamps_, texels_, graph_, gathered_, context_);
+    const GroupHalves gathered{gathered_.booked_halves(), false};
+    BookedLight reflected = filter_groups(texels_, graph_, gathered, options_.filter, context_);
     return TexelLight{texels_, around_, cached_, std::move(beside), std::move(booked), estimate_, std::move(reflected),
                       shares_};
   }
@@ -99,15 +99,15 @@ class CachedEstimator : public LightEstimator {
       ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
     irradiance_ = coarse_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
-    SweepOptions how = sweep_options(options_, goal.error, texels_.count());
-    if (around_.groups() > 0)
-      booked_ = direct_.booked, booked_.add(gathered_.beside_booked[0], 0.5f),
-      booked_.add(gathered_.beside_booked[1], 0.5f), how.booked = &booked_;
-    ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, task_.paths));
+    const SweepOptions how = sweep_options(options_, goal.error, texels_.count());
+    const BookedLight* booked = around_.groups() > 0 ? &booked_ : nullptr;
+    if (booked) booked_ = direct_.booked;
+    for (int h = 0; booked && h < kHalves; ++h) booked_.add(gathered_.beside_booked[h], 0.5f);
+    ORIEL_TRY(sweeps_, sweep({texels_, graph_, around_, irradiance_, booked}, how, task_.paths));
     for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
       irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
-    if (how.booked) booked_.add(sweeps_.booked), cached_.booked = &booked_;
+    if (booked) booked_.add(sweeps_.booked), cached_.booked = booked;
     bright_ = BrightTexels(around_, {texels_, sites_, cached_, sweeps_.gathered, shares_}, context_.seed);
     if (!bright_.empty()) cached_.bright = &bright_;
     take_known();
@@ -291,7 +291,8 @@ class CachedEstimator : public LightEstimator {
       context_.foretell("refinement", left.done(refined(), now));
       if (now <= goal && (direct.mean + gathered.mean <= goal || !most_rays_.raise())) return {};
       if ((ended_early_ = done()) || (out_of_rays_ = out_of_rays())) return {};
-      const auto worst = [&](const Part& p) { return worst_of(beside_, not_kept(), shares_, p, now, goal, context_); };
+      const FrameGoal to_reach{shares_, now, goal};
+      const auto worst = [&](const Part& p) { return worst_of(beside_, not_kept(), p, to_reach, context_); };
       std::vector<std::uint32_t> list;
       if (direct.pays_more_than(gathered) && !(list = worst(direct)).empty()) {
         ORIEL_TRY_VOID(refine_direct(list, direct.most));

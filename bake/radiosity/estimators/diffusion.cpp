@@ -10,7 +10,7 @@ constexpr float kPlainSteps = 8;
 }  // namespace
 
 Conductance conductances(const Texels& texels, const TexelGraph& graph, const Guide& smoothed, const Guide& raw,
-                         float strength, Context& context) {
+                         Context& context) {
   constexpr float kNoiseAlone = 3;  // standard deviations
   Conductance c(texels.count());
   each_texel(context, texels.count(), [&](std::size_t i) {
@@ -19,8 +19,8 @@ Conductance conductances(const Texels& texels, const TexelGraph& graph, const Gu
       const std::uint32_t j = own[k];
       if (texels.visible[i] < 1 || texels.visible[j] < 1 || texels.area_m2[i] <= 0) continue;
       const bool tells = raw.everywhere || texels.has_many[i] || texels.has_many[j];
-      const float beyond = tells ? std::max(0.0f, std::sqrt(raw.distance2(i, j, 1)) - kNoiseAlone) : 0;
-      const float likeness = std::exp(-0.5f * (smoothed.distance2(i, j, strength) + beyond * beyond));
+      const float beyond = tells ? std::max(0.0f, std::sqrt(raw.distance2(i, j)) - kNoiseAlone) : 0;
+      const float likeness = std::exp(-0.5f * (smoothed.distance2(i, j) + beyond * beyond));
       const float both = std::min(texels.area_m2[i], texels.area_m2[j]) / texels.area_m2[i];
       c[i][k] = both / (kMaxNeighbours + 1) * likeness;
     }
@@ -51,8 +51,9 @@ std::vector<float> diffusion_steps(float time) {
   return steps;
 }
 
-Flow further_flow(const TexelGraph& graph, const Conductance& conductance, std::vector<Vec3> values, float time,
-                  Context& context) {
+Flow further_flow(const Conductor& over, std::vector<Vec3> values, float time, Context& context) {
+  const TexelGraph& graph = over.graph;
+  const Conductance& conductance = over.conductance;
   const std::size_t n = values.size();
   std::vector<Vec3> next(n), sum(n, Vec3(0));
   // Edges conduct alike at all times: their flow is that of the sum over steps.

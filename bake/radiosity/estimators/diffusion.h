@@ -27,10 +27,11 @@ using Conductance = std::vector<std::array<float, kMaxNeighbours>>;
 struct Guide {
   const std::vector<Vec3>& light;
   const std::vector<Vec3>& variance;
+  float strength = 1;      // standard deviations are as many times as wide
   bool everywhere = true;  // whether it tells texels apart that nothing stands or hangs close to
 
   // Squared difference of two texels over its variance; worst channel decides.
-  float distance2(std::size_t i, std::size_t j, float strength) const {
+  float distance2(std::size_t i, std::size_t j) const {
     const Vec3 &a = light[i], &b = light[j], d = a - b;
     const Vec3 s = (variance[i] + variance[j]) * (strength * strength) + 1e-12f * (a * a + b * b) + Vec3(1e-30f);
     return max_component(d * d / s);
@@ -40,7 +41,13 @@ struct Guide {
 // Smoothed light tells a gentle slope from noise, but a single dark texel from its surroundings it does not: raw light
 // does, though only beyond what noise brings about by itself. Texels partly inside other bodies join nobody.
 Conductance conductances(const Texels& texels, const TexelGraph& graph, const Guide& smoothed, const Guide& raw,
-                         float strength, Context& context);
+                         Context& context);
+
+// What light diffuses over.
+struct Conductor {
+  const TexelGraph& graph;
+  const Conductance& conductance;
+};
 
 // Steps of explicit diffusion that together last `time`, in units of the longest that is stable alone. Short times take
 // that one. Longer ones two cycles of n steps, each of which lasts (n² + n) / 3 (fast explicit diffusion: Grewenig,
@@ -51,8 +58,9 @@ std::vector<float> diffusion_steps(float time);
 // `values` after that time: light spreads by √(2 time / 3) texels along each axis of a plain surface, and keeps its sum
 // over texels weighed by area.
 template <class V>
-std::vector<V> diffuse(const TexelGraph& graph, const Conductance& conductance, std::vector<V> values, float time,
-                       Context& context) {
+std::vector<V> diffuse(const Conductor& over, std::vector<V> values, float time, Context& context) {
+  const TexelGraph& graph = over.graph;
+  const Conductance& conductance = over.conductance;
   std::vector<V> next(values.size());
   for (const float step : diffusion_steps(time)) {
     each_texel(context, values.size(), [&](std::size_t i) {
@@ -73,8 +81,7 @@ using Flow = std::vector<std::array<Vec3, kMaxNeighbours>>;
 // The flow that smooths `values` over that time. Diffusion changes light that bends, by as much again in the same time
 // once more: its flow less that of the next such time leaves quadratic light as it is, and linear light also where a
 // surface ends (twicing, Tukey 1977).
-Flow further_flow(const TexelGraph& graph, const Conductance& conductance, std::vector<Vec3> values, float time,
-                  Context& context);
+Flow further_flow(const Conductor& over, std::vector<Vec3> values, float time, Context& context);
 
 // A quantity spread over each texel's surroundings, `passes` wide. Its sum over texels stays: what a texel gains its
 // neighbour loses, so that errors at rims and in corners, where the filter's bias is greatest, count in full. share(i,

@@ -44,15 +44,15 @@ std::vector<float> relative_to(const Texels& texels, const std::vector<Vec3>& li
 // is there. What both halves change alike is light, <Δ_0 Δ_1>, <> being a mean over surroundings; by what they change
 // differently, <(Δ_0 - Δ_1)²> / 4, the mean of both has less noise. The least error is where the second's share of all
 // is (Wiener 1949).
-std::vector<float> wanted(const TexelGraph& graph, const Conductance& c, const TwoHalves& change,
-                          const std::vector<float>& weight, float time, Context& context) {
+std::vector<float> wanted(const Conductor& over, const TwoHalves& change, const std::vector<float>& weight, float time,
+                          Context& context) {
   std::vector<Vec2> sums(weight.size());
   each_texel(context, sums.size(), [&](std::size_t i) {
     const Vec3 &a = change[0][i], &b = change[1][i];
     sums[i] = weight[i] * Vec2(0.25f * glm::dot(a - b, a - b), glm::dot(a, b));
   });
-  const std::vector<Vec2> near = diffuse(graph, c, sums, kNarrow, context);
-  sums = diffuse(graph, c, std::move(sums), kPooledOver * time, context);
+  const std::vector<Vec2> near = diffuse(over, sums, kNarrow, context);
+  sums = diffuse(over, std::move(sums), kPooledOver * time, context);
   std::vector<float> share(sums.size());
   for (std::size_t i = 0; i < share.size(); ++i) {
     const float noise = std::max(0.0f, sums[i].x);
@@ -74,20 +74,20 @@ std::vector<Vec3> gain(const Flow& flow, const TexelGraph& graph, const std::vec
 }
 
 // Smooths both halves on scale after scale, each only where that takes noise away.
-void smooth_by_scales(const TexelGraph& graph, const Conductance& c, const std::vector<float>& weight, int scales,
-                      TwoHalves& halves, Context& context) {
+void smooth_by_scales(const Conductor& over, const std::vector<float>& weight, int scales, TwoHalves& halves,
+                      Context& context) {
   const std::vector<float> all(weight.size(), 1.0f);
   float time = kFirstScale;
   for (int scale = 0; scale < scales; ++scale, time *= kNextScale) {
-    const std::array<Flow, kHalves> flow{further_flow(graph, c, halves[0], time, context),
-                                         further_flow(graph, c, halves[1], time, context)};
+    const std::array<Flow, kHalves> flow{further_flow(over, halves[0], time, context),
+                                         further_flow(over, halves[1], time, context)};
     std::vector<float> share = all;
     if (scale > 0) {
-      const TwoHalves change{gain(flow[0], graph, all, context), gain(flow[1], graph, all, context)};
-      share = wanted(graph, c, change, weight, time, context);
+      const TwoHalves change{gain(flow[0], over.graph, all, context), gain(flow[1], over.graph, all, context)};
+      share = wanted(over, change, weight, time, context);
     }
     for (int h = 0; h < kHalves; ++h) {
-      const std::vector<Vec3> change = gain(flow[h], graph, share, context);
+      const std::vector<Vec3> change = gain(flow[h], over.graph, share, context);
       for (std::size_t i = 0; i < change.size(); ++i) halves[h][i] += change[i];
     }
   }
@@ -221,10 +221,10 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
   for (std::size_t i = 0; i < n; ++i) guide_variance[i] *= 0.5f * 3 * left_of_noise(graph.of(i).size());
   for (Vec3& v : raw_variance) v *= 0.5f;
   const std::vector<Vec3> apart = halves.steps ? guide : beside_slopes(graph, guide, context);
-  const Conductance edges = conductances(texels, graph, {apart, guide_variance}, {mean, raw_variance, halves.steps},
-                                         options.strength, context);
+  const Conductance edges = conductances(texels, graph, {apart, guide_variance, options.strength},
+                                         {mean, raw_variance, 1, halves.steps}, context);
   TwoHalves smooth = half;
-  smooth_by_scales(graph, edges, relative_to(texels, guide, halves.beside), options.scales, smooth, context);
+  smooth_by_scales({graph, edges}, relative_to(texels, guide, halves.beside), options.scales, smooth, context);
   each_texel(context, n, [&](std::size_t i) { guide[i] = 0.5f * (smooth[0][i] + smooth[1][i]); });
   std::vector<Vec3>& of_both = guide_variance;  // noise of the mean of both
   each_texel(context, n, [&](std::size_t i) {

@@ -5,25 +5,26 @@
 
 namespace oriel {
 
-BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const std::array<BookedLight, kHalves>& halves,
-                          const FilterOptions& options, Context& context, bool steps) {
-  BookedLight out = halves[0];
+BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const GroupHalves& halves,
+                          const FilterOptions& options, Context& context) {
+  const auto& [light, steps] = halves;
+  BookedLight out = light[0];
   const std::vector<Vec3> none(texels.count(), Vec3(0));
   for (std::size_t g = 0; g < out.groups; ++g) {
-    if (halves[0].is_dark(g) && halves[1].is_dark(g)) continue;
-    const Halves own{{halves[0].of_group(g), halves[1].of_group(g)}, none, none, steps};
+    if (light[0].is_dark(g) && light[1].is_dark(g)) continue;
+    const Halves own{{light[0].of_group(g), light[1].of_group(g)}, none, none, steps};
     out.set_group(g, filter(texels, graph, own, options, context).value);
   }
   return out;
 }
 
-BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const DirectSums& direct,
-                          const HalfSums& gathered, const FilterOptions& options, Context& context) {
-  BookedLight out = filter_groups(texels, graph, gathered.booked_halves(), options, context, false);
-  const auto halves = direct.booked_halves();
+BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const LightSums& sums,
+                          const FilterOptions& options, Context& context) {
+  BookedLight out = filter_groups(texels, graph, GroupHalves{sums.gathered.booked_halves(), false}, options, context);
+  const auto halves = sums.direct.booked_halves();
   const std::vector<Vec3> none(texels.count(), Vec3(0));
   for (std::size_t g = 0; g < out.groups; ++g) {
-    if (direct.booked.is_dark(g)) continue;
+    if (sums.direct.booked.is_dark(g)) continue;
     const Halves own{{halves[0].of_group(g), halves[1].of_group(g)}, none, out.of_group(g)};
     std::vector<Vec3> sum = filter(texels, graph, own, narrow(options), context).value;
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own.beside[i];
@@ -32,11 +33,10 @@ BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const D
   return out;
 }
 
-double noise_of_hours(const Surroundings& around, std::span<const float> shares, const DirectSums& direct_light,
-                      const HalfSums& gathered_light) {
+double noise_of_hours(const Surroundings& around, std::span<const float> shares, const LightSums& sums) {
   const Day& day = around.transport().accel.scene().day;
   if (day.empty() || around.groups() == 0) return 1;
-  const auto gathered = gathered_light.booked_halves();
+  const auto gathered = sums.gathered.booked_halves();
   struct Noise {
     double mean = 0, squares = 0;
     double light = 0, difference = 0;  // of the texel at hand
@@ -53,7 +53,7 @@ double noise_of_hours(const Surroundings& around, std::span<const float> shares,
     all.light = all.difference = 0;
     for (std::size_t g = 0; g < groups; ++g) {
       const double a = luminance(gathered[0].of(i)[g]), b = luminance(gathered[1].of(i)[g]);
-      each[g].light = 0.5 * (a + b) + luminance(direct_light.booked.of(i)[g]), each[g].difference = 0.5 * (a - b);
+      each[g].light = 0.5 * (a + b) + luminance(sums.direct.booked.of(i)[g]), each[g].difference = 0.5 * (a - b);
       all.light += each[g].light, all.difference += each[g].difference;
     }
   };

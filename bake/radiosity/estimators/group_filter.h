@@ -8,20 +8,28 @@
 
 namespace oriel {
 
+// Two estimates of the light of each group, as Halves.
+struct GroupHalves {
+  std::array<BookedLight, kHalves> light;
+  bool steps = true;
+};
 // Filters each group's light by its own halves, as if its lamps shone alone: beside brighter light, what is noise of a
 // faint group and what is its light would be told by the other's. The groups do not sum to the filtered light of all
-// any more; share_out() sees to that. steps: as Halves'.
-BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const std::array<BookedLight, kHalves>& halves,
-                          const FilterOptions& options, Context& context, bool steps = true);
+// any more; share_out() sees to that.
+BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const GroupHalves& halves,
+                          const FilterOptions& options, Context& context);
+struct LightSums {
+  const DirectSums& direct;
+  const HalfSums& gathered;
+};
 // Direct and gathered light of each group, filtered so and added up; direct light beside what the group gathers, as
 // that of all is.
-BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const DirectSums& direct,
-                          const HalfSums& gathered, const FilterOptions& options, Context& context);
+BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const LightSums& sums,
+                          const FilterOptions& options, Context& context);
 
 // Hours of the scene's day are seen one at a time. How much noisier gathered light of theirs is than that of all,
 // relative to all that the hour or they have, by what the halves differ by before the filter: root mean squares over
 // texels by their share of frames, and over hours; 1 at least, and without a day.
-double noise_of_hours(const Surroundings& around, std::span<const float> shares, const DirectSums& direct_light,
-                      const HalfSums& gathered_light);
+double noise_of_hours(const Surroundings& around, std::span<const float> shares, const LightSums& sums);
 
 }  // namespace oriel

@@ -34,13 +34,13 @@ void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums&
   }
 }
 
-std::vector<Vec3> smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph,
-                                const HalfSums& sums, Context& context, BookedLight& booked) {
+LightBeside smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph, const HalfSums& sums,
+                          Context& context) {
   if (lamps.particles == 0) return {};
-  booked = filter_groups(texels, graph, sums.beside_booked, {.scales = 1}, context);
   Halves halves{sums.beside, std::vector<Vec3>(texels.count()), std::vector<Vec3>(texels.count())};
   for (std::size_t i = 0; i < texels.count(); ++i) halves.beside[i] = sums.mean(i);
-  return filter(texels, graph, halves, {.scales = 1}, context).value;
+  return {filter(texels, graph, halves, {.scales = 1}, context).value,
+          filter_groups(texels, graph, GroupHalves{sums.beside_booked}, {.scales = 1}, context)};
 }
 
 bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const Vec3> light,

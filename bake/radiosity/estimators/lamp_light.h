@@ -16,9 +16,13 @@ std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& option
 void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums& sums);
 
 // What put_beside put there, filtered by itself: what ends at a shadow's edge does not reach under a bench. Empty where
-// no particle was followed. booked: HalfSums::beside_booked, filtered likewise.
-std::vector<Vec3> smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph,
-                                const HalfSums& sums, Context& context, BookedLight& booked);
+// no particle was followed.
+struct LightBeside {
+  std::vector<Vec3> light;  // HalfSums::beside
+  BookedLight booked;       // HalfSums::beside_booked
+};
+LightBeside smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph, const HalfSums& sums,
+                          Context& context);
 
 // Whether twice as many particles take more of the squared error of frames away, for what they cost, than twice as many
 // rays: by the noise of both before the filter, which both share. light: of texels, lux.

@@ -38,15 +38,15 @@ void Part::measure(std::span<const std::uint32_t> texels, const std::vector<floa
   open_rays = all > 0 ? rays * (1 - all_stuck / all) : rays;
 }
 
-std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels,
-                                    const std::vector<float>& shares, const Part& part, double now, double goal,
-                                    Context& context) {
+std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels, const Part& part,
+                                    const FrameGoal& goal, Context& context) {
   double seen = 0;
-  for (const std::uint32_t i : texels) seen += shares[i];
+  for (const std::uint32_t i : texels) seen += goal.shares[i];
   std::erase_if(texels, [&](std::uint32_t i) { return part.samples[i] >= part.most; });
-  const double excess = std::clamp(now - goal, kLeastAtOnce * part.open(), kMostAtOnce * part.open());
-  return worst_texels(graph, texels, {part.squares, shares, part.samples},
-                      {.goal = goal * part.open() / now, .excess = excess * seen, .gain = part.gain}, context);
+  const double excess = std::clamp(goal.now - goal.asked, kLeastAtOnce * part.open(), kMostAtOnce * part.open());
+  return worst_texels(graph, texels, {part.squares, goal.shares, part.samples},
+                      {.goal = goal.asked * part.open() / goal.now, .excess = excess * seen, .gain = part.gain},
+                      context);
 }
 
 }  // namespace oriel

@@ -36,10 +36,14 @@ struct Part {
   bool pays_more_than(const Part& other) const { return open() * other.open_rays > other.open() * open_rays; }
 };
 
+// What both parts are to reach together.
+struct FrameGoal {
+  const std::vector<float>& shares;  // by texel, of frames that it fills, as its surroundings tell
+  double now = 0, asked = 0;         // mean squares over frames
+};
 // Those of the measured texels (in coherent_order) whose refinement brings the part nearer to its share of the goal, as
-// worst_texels. now: the mean square of both parts, above the goal; shares: by texel, of frames that it fills.
-std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels,
-                                    const std::vector<float>& shares, const Part& part, double now, double goal,
-                                    Context& context);
+// worst_texels.
+std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels, const Part& part,
+                                    const FrameGoal& goal, Context& context);
 
 }  // namespace oriel

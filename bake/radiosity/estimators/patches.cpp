@@ -26,9 +26,10 @@ constexpr std::uint32_t kOfMuch = 8;  // times as many rays for those that hand 
 
 class Solver {
  public:
-  Solver(const Texels& texels, const TexelGraph& graph, const Surroundings& around, std::span<const Vec3> direct,
-         const SweepOptions& options)
-      : texels_(texels), around_(around), direct_(direct), options_(options) {
+  Solver(const SweepScene& scene, const SweepOptions& options)
+      : texels_(scene.texels), around_(scene.around), direct_(scene.direct), booked_(scene.booked), options_(options) {
+    const Texels& texels = scene.texels;
+    const TexelGraph& graph = scene.graph;
     patch_of_.assign(texels.count(), ~0u);
     const std::vector<std::uint32_t> head = connect_blocks(texels, graph, options.side);
     for (const std::uint32_t i : coherent_order(texels)) {
@@ -39,7 +40,7 @@ class Solver {
         patches_.emplace_back();
         patches_.back().x = texels.x[i] / options_.side, patches_.back().y = texels.y[i] / options_.side;
         patches_.back().stream = head[i];
-        if (options_.booked) patches_.back().booked.resize(options_.booked->groups);
+        if (booked_) patches_.back().booked.resize(booked_->groups);
       }
       patches_[number].texels.push_back(i);
       patches_[number].area_m2 += shown_m2(i);
@@ -59,12 +60,12 @@ class Solver {
   Status trace(const Stage& stage, std::uint64_t seed) {
     const bool named = stage.context.units != nullptr;
     const Hash128 direct = named ? hash_of(direct_) : Hash128();
-    const Hash128 booked = named && options_.booked ? hash_of(options_.booked->light) : Hash128();
+    const Hash128 booked = named && booked_ ? hash_of(booked_->light) : Hash128();
     UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kGroup - 1) / kGroup};
     loop.rays = static_cast<double>(kGroup) * options_.rays_per_patch;
     loop.inputs = [&](std::size_t g, Archive& key) {
       key(direct, options_.side, options_.rays_per_patch, g, around_.near(), around_.lamps(), texels_.eyes);
-      if (options_.booked) key(booked);
+      if (booked_) key(booked);
     };
     loop.compute = [&](std::size_t g) {
       std::uint64_t traced = 0;
@@ -76,7 +77,7 @@ class Solver {
     loop.results = [&](std::size_t g, Archive& archive) {
       for (std::size_t p = g * kGroup; p < group_end(g); ++p) {
         archive(patches_[p].source, patches_[p].unreflected, patches_[p].links);
-        if (options_.booked) archive(patches_[p].booked);
+        if (booked_) archive(patches_[p].booked);
       }
     };
     return parallel_units(stage, loop);
@@ -160,7 +161,7 @@ class Solver {
       const float share = 1.0f / static_cast<float>(patch.rays);
       patch.source += DVec3(weight * direct_[texel] * share);
       for (std::size_t g = 0; g < patch.booked.size(); ++g)
-        patch.booked[g] += DVec3(weight * options_.booked->of(texel)[g] * share);
+        patch.booked[g] += DVec3(weight * booked_->of(texel)[g] * share);
       if (patch_of_[texel] != ~0u) patch.links.push_back({patch_of_[texel], weight * share});
     };
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
@@ -221,6 +222,7 @@ class Solver {
   const Texels& texels_;
   const Surroundings& around_;
   std::span<const Vec3> direct_;
+  const BookedLight* booked_;
   SweepOptions options_;
   std::vector<LightPatch> patches_;
   std::vector<std::uint32_t> patch_of_;  // by texel
@@ -368,11 +370,10 @@ std::vector<Vec3> Solver::solve_group(Context& context, std::size_t group, int s
 }
 
 // Options whose rays take no longer than they may, as a few groups of patches tell; patches grow and rays get fewer.
-Result<SweepOptions> affordable(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
-                                std::span<const Vec3> direct, SweepOptions options, const Stage& stage) {
+Result<SweepOptions> affordable(const SweepScene& scene, SweepOptions options, const Stage& stage) {
   constexpr std::uint32_t kFewest = 2 * kSites, kLargest = 8;
   if (!std::isfinite(options.seconds)) return options;
-  Solver pilot(texels, graph, around, direct, options);
+  Solver pilot(scene, options);
   ORIEL_TRY(double needed, pilot.foretell(stage));
   while (needed > options.seconds && options.rays_per_patch > kFewest) options.rays_per_patch /= 2, needed /= 2;
   while (needed > options.seconds && options.side < kLargest) options.side *= 2, needed /= 4;
@@ -381,19 +382,18 @@ Result<SweepOptions> affordable(const Texels& texels, const TexelGraph& graph, c
 
 }  // namespace
 
-Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
-                     std::span<const Vec3> direct, const SweepOptions& options, const Stage& stage) {
+Result<Sweeps> sweep(const SweepScene& scene, const SweepOptions& options, const Stage& stage) {
   Sweeps result;
-  ORIEL_TRY(const SweepOptions how, affordable(texels, graph, around, direct, options, stage));
-  Solver solver(texels, graph, around, direct, how);
+  ORIEL_TRY(const SweepOptions how, affordable(scene, options, stage));
+  Solver solver(scene, how);
   ORIEL_TRY_VOID(solver.trace(stage, stage.context.seed + seeds::kBounces));
   ORIEL_TRY_VOID(solver.solve(stage.context, result));
   result.gathered = solver.interpolate(stage.context, solver.solution());
-  if (!how.booked) return result;
-  result.booked = BookedLight(texels.count(), how.booked->groups);
-  for (std::size_t g = 0; g < how.booked->groups; ++g)
+  if (!scene.booked) return result;
+  result.booked = BookedLight(scene.texels.count(), scene.booked->groups);
+  for (std::size_t g = 0; g < scene.booked->groups; ++g)
     result.booked.set_group(g, solver.interpolate(stage.context, solver.solve_group(stage.context, g, result.count)));
-  for (std::size_t i = 0; i < texels.count(); ++i) share_out(result.booked.of(i), result.gathered[i]);
+  for (std::size_t i = 0; i < scene.texels.count(); ++i) share_out(result.booked.of(i), result.gathered[i]);
   return result;
 }
 

@@ -23,7 +23,6 @@ struct SweepOptions {
   std::function<bool()> enough = {};  // asked after some hundred sweeps: true ends them; may be empty
   double tolerance = 1e-3;            // of the light, bound on what further sweeps could add: see Sweeps::tail
   double seconds = std::numeric_limits<double>::infinity();  // that the rays may take: less than they need are coarser
-  const BookedLight* booked = nullptr;                       // `direct` by group of lamps; null: nobody asks
 };
 
 // For so many texels, as a part of the error asked for.
@@ -52,15 +51,22 @@ struct Sweeps {
   std::size_t patches = 0;
 };
 
-// direct: irradiance by texel that gather rays do not find (closed forms), lux. Each patch traces its rays once; then
-// Jacobi sweeps run over what they found, until the geometric bound on the rest, |ΔB| q/(1 - q) with q the ratio of
-// successive changes, is below tolerance, for all light and for each patch beside its own. Where the changes grow
-// instead, noise of few rays makes patches hand on more than they get: those whose light grows get weights that sum to
-// no more than those of their surroundings, and in the end all sum to at most 1, so that no sweep adds more than the
-// one before: with direct light E₀ the result is at most (count + 1) max E₀. Where light does not die away (a closed
-// scene that absorbs nothing) as many bounces are added up as paths follow, and a warning tells the energy balance.
-// Error kStopped.
-Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
-                     std::span<const Vec3> direct, const SweepOptions& options, const Stage& stage);
+// Texels, what is around them, and the light that bounces.
+struct SweepScene {
+  const Texels& texels;
+  const TexelGraph& graph;
+  const Surroundings& around;
+  std::span<const Vec3> direct;         // irradiance by texel that gather rays do not find (closed forms), lux
+  const BookedLight* booked = nullptr;  // `direct` by group of lamps; null: nobody asks
+};
+
+// Each patch traces its rays once; then Jacobi sweeps run over what they found, until the geometric bound on the rest,
+// |ΔB| q/(1 - q) with q the ratio of successive changes, is below tolerance, for all light and for each patch beside
+// its own. Where the changes grow instead, noise of few rays makes patches hand on more than they get: those whose
+// light grows get weights that sum to no more than those of their surroundings, and in the end all sum to at most 1, so
+// that no sweep adds more than the one before: with direct light E₀ the result is at most (count + 1) max E₀. Where
+// light does not die away (a closed scene that absorbs nothing) as many bounces are added up as paths follow, and a
+// warning tells the energy balance. Error kStopped.
+Result<Sweeps> sweep(const SweepScene& scene, const SweepOptions& options, const Stage& stage);
 
 }  // namespace oriel

@@ -44,10 +44,9 @@ class OwnNumbers {
   StageInputs inputs_;
 };
 
-Status light_directly(const RadiosityTask& task, const Texels& texels, const MoreSites& sites,
-                      const std::vector<std::uint32_t>& order, const TexelGraph& graph, DirectSums& sums) {
-  const DirectLight light(task.transport, texels, sites, task.context.seed);
-  std::vector<std::uint32_t> list = order;
+// list: in coherent order.
+Status light_directly(const RadiosityTask& task, const DirectLight& light, std::vector<std::uint32_t> list,
+                      const TexelGraph& graph, DirectSums& sums) {
   for (std::uint32_t per_half = kFirstDirect; per_half <= kMostDirect; per_half *= 4) {
     ORIEL_TRY_VOID(light.estimate(list, per_half, task.quick, sums));
     keep_uncertain(sums, graph, per_half == kFirstDirect ? 0 : kUncertain, task.context, list);
@@ -168,7 +167,7 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   const std::vector<std::uint32_t> order = coherent_order(texels);
   ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, task.paths));
   DirectSums direct(n, false, known.around.groups());
-  ORIEL_TRY_VOID(light_directly(task, texels, sites, order, graph, direct));
+  ORIEL_TRY_VOID(light_directly(task, {task.transport, texels, sites, context.seed}, order, graph, direct));
   HalfSums gathered(n, false, known.around.groups());
   Estimate indirect;
   const std::vector<char> which = which_gather(points, texels, gathers);
@@ -184,7 +183,7 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
     if (list.empty()) break;
   }
   const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow(task.options.filter), context);
-  BookedLight booked = filter_groups(texels, graph, direct, gathered, task.options.filter, context);
+  BookedLight booked = filter_groups(texels, graph, LightSums{direct, gathered}, task.options.filter, context);
   result.booked = add_beside(known, texels, points.side, std::move(booked));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
   result.light.resize(n), result.variance.resize(n), result.reflected_change.resize(n),

@@ -90,7 +90,7 @@ void Surroundings::look_through_layers(const Ray& ray, const GatherRay& about, c
     t.book = &book_of_path;
   }
   const PathLight light =
-      specular_light(t, surface_at(scene(), hit, ray.direction), -ray.direction, sampler, answers.rays, on_diffuse);
+      specular_light(t, {surface_at(scene(), hit, ray.direction), -ray.direction}, sampler, answers.rays, on_diffuse);
   book(number, book_of_path.light(), answers);
   answers.light[number] = (light.scattered + (lamps ? light.lamps : Vec3(0))) / chance;
   for (std::size_t i = before; i < answers.links.size(); ++i) answers.links[i].weight /= chance;

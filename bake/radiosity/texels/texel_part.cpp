@@ -16,8 +16,8 @@ constexpr std::uint32_t kLooks = 16;   // whether the sky is around
 constexpr std::uint32_t kPoints = 32;  // among which the sides of a wall are weighed
 
 // The corners of a texel in the plane of its largest fragment, in turn; nothing where that has no area on the page.
-std::optional<std::array<Vec3, 4>> corners_of(const Scene& scene, const Atlas& atlas, const TexelMapPage& map,
-                                              std::size_t texel) {
+std::optional<std::array<Vec3, 4>> corners_of(const Scene& scene, const PageTexel& place) {
+  const auto& [atlas, map, texel] = place;
   const auto fragments = std::span(map.fragments).subspan(map.first[texel], map.first[texel + 1] - map.first[texel]);
   const std::uint32_t triangle =
       std::max_element(fragments.begin(), fragments.end(), [](const TexelFragment& a, const TexelFragment& b) {
@@ -39,15 +39,17 @@ std::optional<std::array<Vec3, 4>> corners_of(const Scene& scene, const Atlas& a
 
 }  // namespace
 
-TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
-                     const Onlookers& onlookers, std::uint64_t& rays)
+TexelPart::TexelPart(const Transport& transport, const PageTexel& place, const Onlookers& onlookers,
+                     std::uint64_t& rays)
     : accel_(transport.accel) {
   const Scene& scene = accel_.scene();
-  const auto corners = corners_of(scene, atlas, map, texel);
+  const TexelMapPage& map = place.map;
+  const std::size_t texel = place.texel;
+  const auto corners = corners_of(scene, place);
   if (!corners) return;
   lift_ = kLift * std::sqrt(0.5f * length2((*corners)[2] - (*corners)[0]));
   const auto point = [&](const Vec3& u) {
-    const TexelPoint p = sample_texel(atlas, map, texel, u);
+    const TexelPoint p = sample_texel(place.atlas, map, texel, u);
     return point_on_side(scene, p.triangle, p.barycentric);
   };
   const auto is_covered = [&](SurfacePoint p, std::uint32_t k) {
@@ -59,7 +61,7 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
   const Vec3 up = lift_ * middle.geometric_normal;
   if (is_free((*corners)[0] + up, (*corners)[2] + up, rays) && is_free((*corners)[1] + up, (*corners)[3] + up, rays) &&
       !is_covered(middle, kPoints)) {
-    if (const auto beyond = seen_beyond({atlas, map, texel, *corners, middle.geometric_normal}, onlookers, rays))
+    if (const auto beyond = seen_beyond(place, {*corners, middle.geometric_normal}, onlookers, rays))
       anchors_ = {*beyond};
     return;
   }
@@ -92,9 +94,13 @@ bool TexelPart::is_under_lamp(const Vec3& p, const Vec3& up, float reach_m, std:
   return hit && is_lamp(accel_.scene(), hit.triangle, hit.front);
 }
 
-std::optional<Vec3> TexelPart::seen_beyond(const Place& place, const Onlookers& onlookers, std::uint64_t& rays) const {
+std::optional<Vec3> TexelPart::seen_beyond(const PageTexel& place, const Square& square, const Onlookers& onlookers,
+                                           std::uint64_t& rays) const {
   if (!onlookers.any()) return std::nullopt;
-  const auto& [atlas, map, texel, corners, normal] = place;
+  const Atlas& atlas = place.atlas;
+  const TexelMapPage& map = place.map;
+  const std::size_t texel = place.texel;
+  const auto& [corners, normal] = square;
   const Vec3 middle = 0.5f * (corners[0] + corners[2]) + lift_ * normal;
   const Vec3 u = corners[1] - corners[0], v = corners[3] - corners[0];
   const auto chart = [&](std::size_t i) { return atlas.chart[map.fragments[map.first[i]].triangle]; };

@@ -15,6 +15,13 @@ namespace oriel {
 // so many metres: closets are no gaps, however large the texels of what nobody sees.
 inline constexpr float kGapTexels = 4, kGapReach_m = 0.2f;
 
+// A texel on its page: TexelMapPage::texel[texel].
+struct PageTexel {
+  const Atlas& atlas;
+  const TexelMapPage& map;
+  std::size_t texel;
+};
+
 // A texel under a thin wall sees light on both of the wall's sides; the mean of both would leak into the dark room. It
 // gets the light of the side of which eyes see most, or else of that on which most of it lies: of those points that see
 // one of its anchors, along segments a tenth of a texel above the surface, so that thresholds and carpets are no walls.
@@ -28,10 +35,8 @@ inline constexpr float kGapTexels = 4, kGapReach_m = 0.2f;
 // that reaches under a lamp has the light beside it, where one next to it lies under the lamp as a whole.
 class TexelPart {
  public:
-  // The whole texel where nothing stands on its diagonals nor lies on its middle: a few rays. texel: as
-  // TexelMapPage::texel[texel]. Adds to rays.
-  TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
-            const Onlookers& onlookers, std::uint64_t& rays);
+  // The whole texel where nothing stands on its diagonals nor lies on its middle: a few rays. Adds to rays.
+  TexelPart(const Transport& transport, const PageTexel& place, const Onlookers& onlookers, std::uint64_t& rays);
 
   // All of a texel, for fields() to fill.
   explicit TexelPart(const Accel& accel) : accel_(accel) {}
@@ -52,11 +57,8 @@ class TexelPart {
     archive(part.lift_, part.anchors_, part.gap_m_, part.towards_lamp_);
   }
 
-  // A texel on its page, and the four corners of it in space, in turn.
-  struct Place {
-    const Atlas& atlas;
-    const TexelMapPage& map;
-    std::size_t texel;
+  // The four corners of a texel in space, in turn.
+  struct Square {
     std::array<Vec3, 4> corners;
     Vec3 normal;
   };
@@ -70,7 +72,8 @@ class TexelPart {
   // Takes one side's points from those left (at least one).
   Side take_side(std::vector<Vec3>& left, std::uint64_t& rays) const;
   // A point of a texel beside it that people see, while nobody sees its own middle and a surface parts them; lifted.
-  std::optional<Vec3> seen_beyond(const Place& place, const Onlookers& onlookers, std::uint64_t& rays) const;
+  std::optional<Vec3> seen_beyond(const PageTexel& place, const Square& square, const Onlookers& onlookers,
+                                  std::uint64_t& rays) const;
   // Whether a quarter of what a point faces is the sky, as beneath an overhang.
   bool is_outdoors(const Vec3& point, const Vec3& normal, std::uint64_t& rays) const;
   void look_for_lamp(const std::array<Vec3, 4>& corners, const Vec3& up, std::uint64_t& rays);

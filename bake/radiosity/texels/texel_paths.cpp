@@ -9,7 +9,7 @@ void TexelPaths::add(const MapTexel& texel, const PathNumbers& paths, TexelSums&
   const TexelMapPage& map = scene_.map[texel.page];
   const std::uint64_t stream = static_cast<std::uint64_t>(texel.page) << 32 | map.texel[texel.index];
   const bool mixed = any_buried(texel, stream, rays);
-  const TexelPart part(t_, scene_.atlas, map, texel.index, Onlookers(t_, eyes_), rays);
+  const TexelPart part(t_, {scene_.atlas, map, texel.index}, Onlookers(t_, eyes_), rays);
   if (part.covered()) return;
   for (std::uint32_t k = paths.first; k < paths.end; ++k) {
     if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away

@@ -39,7 +39,7 @@ class SiteFinder {
   };
 
   Found find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
-    const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | texels.index[i];
+    const std::uint64_t stream = stream_of(texels, i);
     std::vector<ShadePoint> shade;
     int buried = 0;
     bool crowded = false;
@@ -53,19 +53,19 @@ class SiteFinder {
     }
     keep_means(shade, texels, i);
     texels.visible[i] = 1;
-    Found found{TexelPart(t_, scene_.atlas, scene_.map[texels.page[i]], texels.index[i], onlookers_, rays), {}};
+    Found found{TexelPart(t_, {scene_.atlas, scene_.map[texels.page[i]], texels.index[i]}, onlookers_, rays), {}};
     if (found.part.covered())
-      find_unburied(texels, i, stream, kFewPoints, found, rays);
+      find_unburied(texels, i, kFewPoints, found, rays);
     else if (buried > 0 || !found.part.whole())
-      find_unburied(texels, i, stream, kManyPoints, found, rays);
+      find_unburied(texels, i, kManyPoints, found, rays);
     else if (crowded)
-      find_unburied(texels, i, stream, kNearPoints, found, rays);
+      find_unburied(texels, i, kNearPoints, found, rays);
     return found;
   }
 
   // Again, with many points: their share, and those that are left.
-  void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, std::uint32_t points, Found& found,
-                     std::uint64_t& rays) const {
+  void find_unburied(Texels& texels, std::size_t i, std::uint32_t points, Found& found, std::uint64_t& rays) const {
+    const std::uint64_t stream = stream_of(texels, i);
     std::vector<ShadePoint> shade;
     const std::uint32_t most = kMostPoints / fewer_, enough_sites = kManySites / fewer_;
     std::uint32_t tried = 0, total = 0;
@@ -103,6 +103,9 @@ class SiteFinder {
   }
 
  private:
+  static std::uint64_t stream_of(const Texels& texels, std::size_t i) {
+    return std::uint64_t{texels.page[i]} << 32 | texels.index[i];
+  }
   SurfacePoint candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
     return texel_candidate(scene_, texels, {i, half, k}, seed_);
   }

@@ -109,12 +109,11 @@ TEST(Microfacet, MaskingSeesTheProjectedArea) {
 TEST(Compensation, WhiteFurnace) {
   for (const FacetModel model : {FacetModel::kGgx, FacetModel::kBeckmann})
     for (const double alpha : kAlphas) {
-      const LobeFunction f = function_of({model, alpha});
-      const Compensation compensation(f, alpha, 24);
+      const CosineLobe lobe{function_of({model, alpha}), alpha};
+      const Compensation compensation(lobe, 24);
       EXPECT_LT(compensation.imbalance(), 1e-7) << alpha;
       for (const double cos_theta : kCosines) {
-        const Albedo e = lobe_albedo(
-            f, alpha, compensation, [](double) { return DVec3(1); }, DVec3(1), cos_theta, 32);
+        const Albedo e = lobe_albedo(lobe, compensation, {[](double) { return DVec3(1); }, DVec3(1)}, cos_theta, 32);
         EXPECT_NEAR(e.compensated.r, 1, 2e-3) << alpha << " " << cos_theta;
         EXPECT_LE(e.single.r, 1 + 1e-6) << alpha << " " << cos_theta;
         EXPECT_NEAR(compensation.albedo(cos_theta), e.single.r, 2e-3) << alpha << " " << cos_theta;

@@ -82,7 +82,7 @@ TEST(Mips, OfAFineCheckerboardAreItsMean) {
     const Scene s = with_image(64, 64, checker, colour);
     for (const float radius : {2.0f / 64, 0.1f, 0.5f, 30.0f, 1e9f})
       for (const Vec2& at : {Vec2(0.5f), Vec2(0.123f, 0.77f), Vec2(-3.2f, 1e4f)})
-        EXPECT_NEAR(sample_texture(s, kFirst, at, Vec2(radius, 0), Vec2(0, radius), colour).g, 0.5, 0.005) << radius;
+        EXPECT_NEAR(sample_texture(s, kFirst, at, colour, {Vec2(radius, 0), Vec2(0, radius)}).g, 0.5, 0.005) << radius;
   }
 }
 
@@ -94,7 +94,7 @@ TEST(Mips, OfCutOutsHaveTheColourOfWhatIsThere) {
   for (std::size_t i = 0; i < s.images[0].texels.size(); i += 4) s.images[0].texels[i + 3] = s.images[0].texels[i];
   Context context;
   ASSERT_TRUE(make_mips(s, context));
-  const Vec4 mean = sample_texture(s, kFirst, Vec2(0.4f), Vec2(0.2f, 0), Vec2(0, 0.2f), true);
+  const Vec4 mean = sample_texture(s, kFirst, Vec2(0.4f), true, {Vec2(0.2f, 0), Vec2(0, 0.2f)});
   EXPECT_NEAR(mean.g, 1, 1e-6);
   EXPECT_NEAR(mean.a, 0.5, 0.01);
 }
@@ -104,7 +104,7 @@ TEST(Mips, OfOneColourAreThatColour) {
     const Scene s = with_image(size.x, size.y, [](auto, auto) { return 100; });
     for (const float shorter : {0.0f, 1e-30f, 1e-3f, 1.0f, 1e30f})
       for (const float longer : {0.0f, 1e-3f, 7.0f, 1e30f})
-        EXPECT_NEAR(sample_texture(s, kFirst, Vec2(0.3f, 0.7f), Vec2(shorter, 0), Vec2(0, longer), false).r,
+        EXPECT_NEAR(sample_texture(s, kFirst, Vec2(0.3f, 0.7f), false, {Vec2(shorter, 0), Vec2(0, longer)}).r,
                     100.0f / 255, 1e-5)
             << shorter << " " << longer;
   }
@@ -118,8 +118,8 @@ TEST(Mips, OfAPointAreTheTexture) {
   for (float u = -1; u < 2; u += 0.037f) {
     const Vec2 at(u, 0.4f * u);
     const Vec2 little(0.4f / 16, 0);  // less than a texel in all
-    EXPECT_EQ(sample_texture(s, kFirst, at, little, Vec2(0), false), sample_texture(s, kFirst, at, false));
-    EXPECT_EQ(sample_texture(s, nearest, at, Vec2(1, 0), Vec2(0, 1), false), sample_texture(s, nearest, at, false));
+    EXPECT_EQ(sample_texture(s, kFirst, at, false, {little, Vec2(0)}), sample_texture(s, kFirst, at, false));
+    EXPECT_EQ(sample_texture(s, nearest, at, false, {Vec2(1, 0), Vec2(0, 1)}), sample_texture(s, nearest, at, false));
   }
 }
 
@@ -128,10 +128,10 @@ TEST(Mips, KeepWhatIsSharpAcrossALongEllipse) {
   const Scene s = with_image(256, 256, [](auto, std::uint32_t y) { return y / 8 % 2 ? 255 : 0; });
   for (const float stripe : {10.0f, 11.0f})
     EXPECT_NEAR(
-        sample_texture(s, kFirst, Vec2(0.5f, (8 * stripe + 4) / 256), Vec2(0, 1.0f / 256), Vec2(8.0f / 256, 0), false)
+        sample_texture(s, kFirst, Vec2(0.5f, (8 * stripe + 4) / 256), false, {Vec2(0, 1.0f / 256), Vec2(8.0f / 256, 0)})
             .g,
         static_cast<int>(stripe) % 2, 1e-6);
-  EXPECT_NEAR(sample_texture(s, kFirst, Vec2(0.5f), Vec2(0, 32.0f / 256), Vec2(32.0f / 256, 0), false).g, 0.5, 0.01);
+  EXPECT_NEAR(sample_texture(s, kFirst, Vec2(0.5f), false, {Vec2(0, 32.0f / 256), Vec2(32.0f / 256, 0)}).g, 0.5, 0.01);
 }
 
 // A quad of 4 m by 2 m whose coordinates go once over it.

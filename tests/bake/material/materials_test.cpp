@@ -51,7 +51,7 @@ TEST(Materials, FactorsFollowTheConventions) {
   m.transmission = 0.5f;
   parts.add(m);
   const Scene scene = parts.finish();
-  const MaterialSummary s = summarize_material(scene, 0);
+  const MaterialSummary s = summarize_materials(scene).front();
   const float dielectric = 0.5f / 9;
   EXPECT_NEAR(s.f0.r, 0.75f * dielectric + 0.25f * 0.8f, 1e-6);
   EXPECT_NEAR(s.f90, 0.75f * 0.5f + 0.25f, 1e-6);
@@ -98,7 +98,7 @@ TEST(Materials, BrushedMetalsTakeTheMeanWidth) {
     brushed.anisotropy = strength;
     parts.add(brushed);
     const double narrow = 0.09, wide = narrow + (1 - narrow) * strength * strength, mean = std::sqrt(narrow * wide);
-    EXPECT_NEAR(summarize_material(parts.finish(), 0).alpha, mean, 1e-6);
+    EXPECT_NEAR(summarize_materials(parts.finish()).front().alpha, mean, 1e-6);
     const Microfacet truth(FacetModel::kGgx, wide, narrow);
     const LobeDifference found = difference_of(truth, {FacetModel::kGgx, mean});
     const LobeDifference without = difference_of(truth, {FacetModel::kGgx, narrow});
@@ -124,7 +124,7 @@ TEST(Materials, TexturesAreAveragedOverTheSurface) {
   parts.scene().images.push_back({"colour", 2, 2, {255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255}});
   parts.scene().images.push_back({"mr", 1, 1, {0, 51, 128, 255}});  // roughness 0.2, metallic 0.502
   const Scene scene = parts.finish();
-  const MaterialSummary s = summarize_material(scene, 0);
+  const MaterialSummary s = summarize_materials(scene).front();
   EXPECT_NEAR(s.base_color.r, 0.25f, 0.01);
   EXPECT_NEAR(s.roughness, 0.2f, 1e-3);
   EXPECT_NEAR(s.alpha, 0.04f, 1e-3);

@@ -51,7 +51,7 @@ ViewQuality judge(const Accel& accel, const Planned& planned, std::span<const Ra
                   std::span<const Vec3> eyes) {
   Context context;
   const ReflectedSurroundings surroundings(accel, planned.reflectors, {});
-  const auto samples = sample_reflections(surroundings, 0, eyes, 2048, 77, context);
+  const auto samples = sample_reflections(surroundings, 0, {eyes, 2048, 77}, context);
   EXPECT_TRUE(samples);
   EXPECT_EQ(samples->size(), 2048u);
   return judge_maps(surroundings, maps, *samples, context);
@@ -351,7 +351,7 @@ TEST(SeenReflectors, HolesAndSeparatePartsAreNotReflector) {
   EXPECT_NEAR(reflectors[0].reflector.area_m2, 13, 1e-4);
   Context context;
   const std::vector<Vec3> eyes{{0, 0, 2}, {1, 1, 3}};
-  const auto samples = sample_reflections(ReflectedSurroundings(*accel, reflectors, {}), 0, eyes, 1000, 1, context);
+  const auto samples = sample_reflections(ReflectedSurroundings(*accel, reflectors, {}), 0, {eyes, 1000, 1}, context);
   ASSERT_TRUE(samples);
   ASSERT_EQ(samples->size(), 1000u);
   for (const ReflectedSample& s : *samples) {

@@ -49,7 +49,7 @@ TEST(SkySamples, ABlackSkyCountsBesideSurfacesAlone) {
     ASSERT_EQ(reflectors.size(), 1u);
     Context context;
     const auto samples =
-        sample_reflections(ReflectedSurroundings(*accel, reflectors, {}), 0, eyes_before(), 500, 1, context);
+        sample_reflections(ReflectedSurroundings(*accel, reflectors, {}), 0, {eyes_before(), 500, 1}, context);
     ASSERT_TRUE(samples);
     const auto skies = std::count_if(samples->begin(), samples->end(), [](const auto& s) { return s.sky; });
     EXPECT_EQ(samples->empty(), !panel);
@@ -75,7 +75,7 @@ TEST(SkySamples, ResidualsHoldTheSkyBehindThings) {
     Context context;
     ASSERT_TRUE(capture_maps({surroundings, outgoing}, context, plan.maps));
     const auto eyes = eyes_before();
-    const auto samples = sample_reflections(surroundings, 0, eyes, 2000, 7, context);
+    const auto samples = sample_reflections(surroundings, 0, {eyes, 2000, 7}, context);
     ASSERT_TRUE(samples);
     std::vector<ReflectedSample> skies;
     for (const ReflectedSample& s : *samples)

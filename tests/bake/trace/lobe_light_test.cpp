@@ -6,6 +6,7 @@
 #include "bake/brdf/quadrature.h"
 #include "bake/trace/lobe_fit.h"
 #include "bake/trace/sampler.h"
+#include "tests/player/twins/reflected_polygon.h"
 
 namespace oriel {
 namespace {

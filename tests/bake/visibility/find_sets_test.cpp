@@ -56,12 +56,11 @@ Found find(const Scene& scene, const std::vector<WalkGrid>& grids, std::uint32_t
   context.threads = threads;
   const std::vector<std::uint32_t> groups = by_surface(scene);
   const auto count = static_cast<std::uint32_t>(scene.surfaces.size());
-  std::uint64_t rays = 0;
-  const auto seen = find_visible_sets({*accel, groups, count}, grids, side, {}, context, rays);
-  EXPECT_TRUE(seen);
-  EXPECT_GT(rays, 0u);
+  const auto found = find_visible_sets({*accel, groups, count}, grids, side, {}, context);
+  EXPECT_TRUE(found);
+  EXPECT_GT(found->rays, 0u);
   const std::size_t set_bytes = (std::size_t{count} + 7) / 8;
-  return {*seen, set_bytes, seen->size() / set_bytes};
+  return {found->seen, set_bytes, found->seen.size() / set_bytes};
 }
 
 std::uint32_t surface(const Scene& scene, const std::string& name) {
@@ -168,10 +167,9 @@ TEST(FindSets, RandomEyesSeeNothingElse) {
   sets.below_m = 0.4f;
   sets.above_m = 0.2f;
   const std::vector<WalkGrid> grids{first_room()};
-  std::uint64_t rays = 0;
-  auto seen = find_visible_sets({*accel, group, sets.groups}, grids, sets.side, {}, context, rays);
-  ASSERT_TRUE(seen);
-  sets.seen = std::move(*seen);
+  auto found = find_visible_sets({*accel, group, sets.groups}, grids, sets.side, {}, context);
+  ASSERT_TRUE(found);
+  sets.seen = std::move(found->seen);
   const SeenGroups lookup(sets, grids);
   const SightLines lines(*accel);
   int missing = 0, eyes = 0, left_out = 0;
@@ -224,19 +222,18 @@ TEST(ReflectedSets, HoldWhatEyesSeeInAMirror) {
       eyes.emplace_back(0.5f + 0.04f * static_cast<float>(i), 1.6f, 0.5f + 0.3f * static_cast<float>(i % 10));
     const std::vector<std::uint32_t> groups = by_surface(scene);
     Context context;
-    std::uint64_t rays = 0;
-    const auto seen = find_reflected_sets({*accel, groups, static_cast<std::uint32_t>(scene.surfaces.size())},
-                                          std::span(&mirror, 1), eyes, {}, context, rays);
-    ASSERT_TRUE(seen);
+    const auto found = find_reflected_sets({*accel, groups, static_cast<std::uint32_t>(scene.surfaces.size())},
+                                           std::span(&mirror, 1), eyes, {}, context);
+    ASSERT_TRUE(found);
     const auto has = [&](const std::string& name) {
       const std::uint32_t g = surface(scene, name);
-      return ((*seen)[g / 8] >> (g % 8) & 1) != 0;
+      return (found->seen[g / 8] >> (g % 8) & 1) != 0;
     };
     EXPECT_EQ(has("ball"), !hidden);
     EXPECT_EQ(has("room"), !hidden);
     EXPECT_FALSE(has("next door"));
     EXPECT_FALSE(has("mirror")) << "it does not see itself";
-    EXPECT_GT(rays, 0u);
+    EXPECT_GT(found->rays, 0u);
   }
 }
 

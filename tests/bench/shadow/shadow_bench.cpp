@@ -8,6 +8,7 @@
 #include "formats/shadow/silhouettes.h"
 #include "formats/shadow/soft_shadow.h"
 #include "tests/bake/support/scene_parts.h"
+#include "tests/formats/shadow/test_lights.h"
 
 namespace oriel {
 namespace {

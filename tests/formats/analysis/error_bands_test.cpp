@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "formats/metrics/contrast_sensitivity.h"
+#include "formats/image/contrast_sensitivity.h"
 
 namespace oriel {
 namespace {

@@ -185,11 +185,12 @@ TEST_F(Deferred, APlaceIsToBeHadWithoutThePixels) {
     if (section.kind != kRadianceMapSection) continue;
     Bytes damaged = file;
     for (std::size_t i = 80; i < section.stored_bytes; ++i) damaged[section.offset + i] = std::byte{0xff};
-    const auto head = section_head(damaged, section, kRadianceMapPlaceBytes);
+    const auto head = stored_head(stored_bytes(damaged, section), section, kRadianceMapPlaceBytes);
     ASSERT_TRUE(head) << head.error().text();
-    EXPECT_EQ(*head, *section_head(file, section, kRadianceMapPlaceBytes));
-    const auto more = section_head(damaged, section, section.raw_bytes);
-    EXPECT_TRUE(!more || *more != *section_head(file, section, section.raw_bytes)) << "the damage is there";
+    EXPECT_EQ(*head, *stored_head(stored_bytes(file, section), section, kRadianceMapPlaceBytes));
+    const auto more = stored_head(stored_bytes(damaged, section), section, section.raw_bytes);
+    EXPECT_TRUE(!more || *more != *stored_head(stored_bytes(file, section), section, section.raw_bytes))
+        << "the damage is there";
   }
 }
 

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "formats/shadow/soft_shadow.h"
+#include "tests/formats/shadow/test_lights.h"
 
 namespace oriel {
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/formats/shadow/exact_rays.h"
+#include "tests/formats/shadow/test_lights.h"
 
 namespace oriel {
 namespace {
@@ -74,6 +75,20 @@ TEST_P(LightSums, AreThoseOfEverySample) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Scales, LightSums, testing::Values(1e-4, 1.0, 1e6));
+
+// Herf 1997, section 3.2: the projective matrix that takes the pyramid from `apex` over the receiver to a box. Along x
+// and y it is 0 to 1 over the receiver. z is 1 in its plane, grows towards the apex and is infinite there. All apexes
+// share the image of the receiver, so that hard shadows of many lights lie upon each other.
+DMat4 pyramid_to_box(const ShadowReceiver& receiver, const DVec3& apex) {
+  const DVec3 ex = receiver.x * static_cast<double>(receiver.width), &b = receiver.corner;
+  const DVec3 ey = receiver.y * static_cast<double>(receiver.height), ew = b - apex;
+  const DVec3 nx = glm::cross(ew, ey), ny = glm::cross(ex, ew), nw = glm::cross(ey, ex);
+  const auto row = [](const DVec3& n, double length, const DVec3& zero) {
+    return DVec4(n / length, -glm::dot(n, zero) / length);
+  };
+  return glm::transpose(DMat4(row(nx, glm::dot(nx, ex), b), row(ny, glm::dot(ny, ey), b), DVec4(0, 0, 0, 1),
+                              row(nw, glm::dot(nw, ew), apex)));
+}
 
 TEST(LightSum, OfALowLightIsSummedInFull) {
   const ShadowReceiver receiver =

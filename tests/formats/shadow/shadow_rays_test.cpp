@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/formats/shadow/exact_rays.h"
+#include "tests/formats/shadow/test_lights.h"
 
 namespace oriel {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "formats/shadow/silhouettes.h"
 #include "tests/formats/shadow/exact_rays.h"
+#include "tests/formats/shadow/test_lights.h"
 
 namespace oriel {
 namespace {

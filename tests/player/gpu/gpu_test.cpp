@@ -14,6 +14,7 @@
 #include "player/gpu/headless.h"
 #include "player/scene/textures.h"
 #include "tests/player/twins/map_point.h"
+#include "tests/player/twins/reflected_polygon.h"
 
 namespace oriel {
 namespace {

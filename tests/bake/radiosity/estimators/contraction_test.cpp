@@ -23,7 +23,7 @@ struct Swept {
     const TexelGraph graph = *find_neighbours(transport, scene.texels, scene.context);
     const Surroundings around(transport, scene.texels, true, scene.context.seed);
     const std::vector<Vec3> light(scene.texels.count(), Vec3(direct));
-    sweeps = *sweep(scene.texels, graph, around, light, options, scene.context);
+    sweeps = *sweep({scene.texels, graph, around, light}, options, scene.context);
   }
   float largest() const {
     float most = 0;

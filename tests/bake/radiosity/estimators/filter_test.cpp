@@ -110,7 +110,7 @@ TEST(Filter, LightFromAllAroundStepsAtContactsAlone) {
   const std::vector<Vec3> even(texels.count(), Vec3(100)), variance(texels.count(), Vec3(1));
   std::size_t open = 0, contacts = 0;
   for (const bool steps : {false, true}) {
-    const Conductance c = conductances(texels, s.graph, {even, variance}, {raw, variance, steps}, 1, s.listed.context);
+    const Conductance c = conductances(texels, s.graph, {even, variance}, {raw, variance, 1, steps}, s.listed.context);
     for (const std::uint32_t i : bright)
       for (std::size_t k = 0; k < s.graph.of(i).size(); ++k) {
         const std::uint32_t j = s.graph.of(i)[k];

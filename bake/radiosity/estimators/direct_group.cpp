@@ -1,0 +1,315 @@
+#include "bake/radiosity/estimators/direct_group.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "bake/radiosity/gather/moments.h"
+#include "bake/radiosity/texels/seeds.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+
+DirectGroup::DirectGroup(const DirectLight& direct, std::span<const std::uint32_t> list, std::uint32_t per_half,
+                         bool directional)
+    : d_(direct),
+      list_(list),
+      per_half_(per_half),
+      directional_(directional),
+      tallies_(list.size()),
+      booked_(list.size(), scene().light_groups.size()),
+      booked_difference_(booked_),
+      booked_passed_{booked_, booked_} {
+  for (std::uint32_t i = 0; i < list.size(); ++i)
+    if (d_.texels_.visible[list[i]] > 0) add_points(i);
+}
+
+void DirectGroup::run(DirectSums& sums) {
+  sample_polygon_lights();
+  for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
+    aim_at_punctual(l);
+    finish_light(Vec3(1), scene().lights[l].light_group, hours_of(scene().lights[l]), per_half_);
+  }
+  const VirtualLights& mirrored = d_.t_.lights.mirrored();
+  const auto [centre, radius] = sphere_about_points();
+  for (std::uint32_t i = 0; i < mirrored.size(); ++i) {
+    if (mirrored[i].order > d_.t_.options.max_bounces || !mirrored[i].may_reach(centre, radius)) continue;
+    aim_at_mirrored(i);
+    const Light& light = scene().lights[mirrored[i].light];
+    finish_light(Vec3(1), light.light_group, hours_of(light), per_half_);
+  }
+  const auto any = [&](const Point& p, Sampler& sampler) {
+    const float u = sampler.next1();
+    return d_.t_.lights.sample(p.site.origin, u, sampler.next2());
+  };
+  if (d_.many_punctual_) sample_punctual(any);
+  if (!d_.closed_form_) sample_lights(any);
+  if (d_.closed_form_ && d_.t_.lights.samples_sky())
+    sample_lights([&](const Point&, Sampler& sampler) { return d_.t_.lights.sample_sky(sampler.next2()); });
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    sums.value[list_[i]] = tallies_[i].total;
+    sums.difference[list_[i]] = tallies_[i].difference;
+    sums.variance[list_[i]] = tallies_[i].variance;
+    sums.uneven[list_[i]] = 0.25f * tallies_[i].uneven * tallies_[i].uneven;
+    sums.per_half[list_[i]] = per_half_;
+    if (!sums.moments.empty()) sums.moments[list_[i]] = tallies_[i].moments;
+    std::ranges::copy(booked_.of(i), sums.booked.of(list_[i]).begin());
+    std::ranges::copy(booked_difference_.of(i), sums.booked_difference.of(list_[i]).begin());
+  }
+}
+
+std::uint64_t DirectGroup::stream_of(std::uint32_t texel, int half) const {
+  const Texels& t = d_.texels_;
+  return (std::uint64_t{t.page[texel]} << 32 | t.index[texel]) * kHalves + static_cast<std::uint64_t>(half);
+}
+
+void DirectGroup::add_points(std::uint32_t i) {
+  // What casts sharp shadows sends the same ray from the same point.
+  const std::uint32_t samples_a_point = d_.t_.accel.scene().lights.empty() ? kSamplesAPoint : 1;
+  for (int half = 0; half < kHalves; ++half) {
+    const std::uint32_t kept = d_.sites_.known(list_[i], half);
+    for (std::uint32_t k = 0; k < per_half_; ++k) {
+      const bool again = k > kept && (k - kept) % samples_a_point != 0;
+      const std::uint32_t point = k < kept ? k : kept + (k - kept) / samples_a_point;
+      points_.push_back({again ? points_.back().site : d_.sites_.at(list_[i], half, point, rays_), i, half, k, again});
+    }
+  }
+}
+
+bool DirectGroup::is_usable(const Point& point, const Vec3& light) const {
+  if (oriel::is_usable(light)) return true;
+  d_.t_.accel.dropped().add(d_.sites_.triangle(list_[point.texel]));
+  return false;
+}
+
+void DirectGroup::sample_polygon_lights() {
+  const std::uint32_t first = std::min(per_half_, LightPilot::kSamples);
+  std::vector<LightPilot> pilots;
+  float most = 0;
+  for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
+    aim_at_polygon(l, 0, first, true);
+    pilots.push_back(end_pilot(l));
+    most = std::max(most, pilots.back().noise);
+  }
+  for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
+    const LightPilot& pilot = pilots[l];
+    for (std::size_t i = 0; i < tallies_.size(); ++i) static_cast<LightTally&>(tallies_[i]) = pilot.tallies[i];
+    const std::uint32_t samples = per_half_ > first ? samples_of(pilot, most, per_half_) : first;
+    if (samples > first) aim_at_polygon(l, first, samples, !pilot.all);
+    finish_light(d_.polygons_[l].radiance, scene().light_group(d_.polygons_[l].triangles.front()), 1, samples);
+  }
+}
+
+LightPilot DirectGroup::end_pilot(std::uint32_t l) {
+  trace();
+  LightPilot pilot;
+  bool any = false;
+  for (Tally& t : tallies_) {
+    for (int half = 0; half < kHalves; ++half) {
+      pilot.all = pilot.all && t.passed[half] == t.weight[half];
+      pilot.none = pilot.none && t.passed[half] == Vec3(0);
+      any = any || t.weight[half] != Vec3(0);
+    }
+    // Of so few samples none is sure that it sees all there is: as if half a sample more saw it and half a one not.
+    const float open =
+        luminance(d_.polygons_[l].radiance) * (t.open[0].x + t.open[1].x) / (kHalves * LightPilot::kSamples);
+    const float weight = luminance(t.weight[0] + t.weight[1]), sample = weight / (kHalves * LightPilot::kSamples);
+    const float share = weight > 0 ? (luminance(t.passed[0] + t.passed[1]) + 0.5f * sample) / (weight + sample) : 0;
+    pilot.noise += open * open * share * (1 - share);
+    pilot.tallies.push_back(t);
+    forget_light(t);
+  }
+  pilot.none = pilot.none && any;
+  if (pilot.all || pilot.none) pilot.noise = 0;
+  return pilot;
+}
+
+void DirectGroup::aim_at_polygon(std::uint32_t l, std::uint32_t first, std::uint32_t end, bool shoot_rays) {
+  const PolygonLight& light = d_.polygons_[l];
+  Receiver receiver;
+  std::optional<PolygonView> view;
+  float open = 0;
+  std::uint32_t last = ~0u;  // whose site these are of
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
+    const Point& point = points_[p];
+    if (point.k < first || point.k >= end) continue;
+    if (!point.again || last + 1 != p) {
+      receiver = point.site.receiver();
+      open = polygon_irradiance(light, receiver);
+      view.reset();
+    }
+    last = p;
+    if (!(open > 0) || !is_usable(point, Vec3(open))) continue;
+    Tally& tally = tallies_[point.texel];
+    tally.open[point.half] += Vec3(open);
+    const bool unseen = tally.weight[0] + tally.weight[1] == Vec3(0);
+    if (!shoot_rays && !unseen) continue;
+    if (!view) view.emplace(light, receiver);
+    Sampler sampler(d_.seed_ + seeds::kPolygonLight + l, stream_of(list_[point.texel], point.half), point.k);
+    shoot_at_polygon(*view, receiver, p, sampler);
+  }
+}
+
+void DirectGroup::shoot_at_polygon(const PolygonView& view, const Receiver& receiver, std::uint32_t p,
+                                   Sampler& sampler) {
+  for (int tries = 0; tries < kTries; ++tries) {
+    const auto s = view.sample(sampler.next2());
+    const float weight = s ? incidence(receiver, s->direction) * s->solid_angle : 0;
+    if (!(weight > 0)) continue;
+    shoot(p, {points_[p].site.origin, s->direction, s->distance, false}, Vec3(weight));
+    return;
+  }
+}
+
+void DirectGroup::aim_at_punctual(std::uint32_t l) {
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
+    const Point& point = points_[p];
+    Sampler sampler(d_.seed_ + seeds::kSharpLight + l, stream_of(list_[point.texel], point.half), point.k);
+    const LightSample s = d_.t_.lights.sample_light(l, point.site.origin, sampler.next2());
+    const Vec3 value = s.estimate * incidence(point.site.receiver(), s.direction);
+    if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
+    tallies_[point.texel].open[point.half] += value;
+    shoot(p, {point.site.origin, s.direction, s.distance}, value);
+  }
+}
+
+std::pair<DVec3, double> DirectGroup::sphere_about_points() const {
+  Vec3 lower = points_.empty() ? Vec3(0) : points_.front().site.origin, upper = lower;
+  for (const Point& p : points_) lower = glm::min(lower, p.site.origin), upper = glm::max(upper, p.site.origin);
+  return {0.5 * (DVec3(lower) + DVec3(upper)), 0.5 * double{glm::length(upper - lower)}};
+}
+
+void DirectGroup::aim_at_mirrored(std::uint32_t i) {
+  const VirtualLights& mirrored = d_.t_.lights.mirrored();
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
+    const Point& point = points_[p];
+    Sampler sampler(d_.seed_ + seeds::kMirroredLight + i, stream_of(list_[point.texel], point.half), point.k);
+    const MirroredSample s = mirrored.sample(i, d_.t_.lights, point.site.origin, sampler.next2());
+    const Vec3 value = s.endless * incidence(point.site.receiver(), s.direction);
+    if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
+    tallies_[point.texel].open[point.half] += value;
+    tallies_[point.texel].weight[point.half] += value;
+    if (s.legs == 0) continue;
+    rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
+    shots_.push_back({p, value, s.direction, kNoGroup, s.legs, s.share});
+  }
+}
+
+void DirectGroup::shoot(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group) {
+  const Point& p = points_[point];
+  tallies_[p.texel].weight[p.half] += weight;
+  if (ray.max_distance > 0) {
+    rays_to_trace_.push_back(ray);
+    shots_.push_back({point, weight, ray.direction, group});
+  } else {
+    receive({point, weight, ray.direction, group}, Vec3(1));  // touching
+  }
+}
+
+void DirectGroup::receive(const Shot& shot, const Vec3& passed) {
+  const Point& p = points_[shot.point];
+  Tally& tally = tallies_[p.texel];
+  const Vec3 light = shot.weight * shot.share * passed;
+  tally.passed[p.half] += light;
+  if (booked_.groups > 0 && shot.group != kNoGroup)
+    each_owner(scene(), shot.group, shot.direction, light,
+               [&](std::uint32_t group, const Vec3& part) { booked_passed_[p.half].of(p.texel)[group] += part; });
+  if (!directional_) return;
+  const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
+  tally.from += moments_of(luminance(light) / cosine, shot.direction);
+}
+
+void DirectGroup::trace() {
+  passed_.resize(rays_to_trace_.size());
+  d_.t_.accel.transmittance(rays_to_trace_, passed_);
+  rays_ += rays_to_trace_.size();
+  auto leg = passed_.begin();
+  for (const Shot& shot : shots_) {
+    Vec3 passed(1);
+    for (int k = 0; k < shot.legs; ++k) passed *= *leg++;
+    receive(shot, passed);
+  }
+  shots_.clear();
+  rays_to_trace_.clear();
+}
+
+void DirectGroup::finish_light(const Vec3& radiance, std::uint32_t group, float hours, std::uint32_t per_half) {
+  trace();
+  const auto n = static_cast<float>(kHalves * per_half);
+  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+    Tally& t = tallies_[i];
+    const Vec3 share = ratio(t.passed[0] + t.passed[1], t.weight[0] + t.weight[1]);
+    const auto own = [&](int half) {
+      return max_component(t.weight[half]) > 0 ? ratio(t.passed[half], t.weight[half]) : share;
+    };
+    const std::array<Vec3, kHalves> of_half{own(0), own(1)};
+    const Vec3 halves = 0.5f * (of_half[0] + of_half[1]);
+    const Vec3 open = radiance * (t.open[0] + t.open[1]) / n;
+    const Vec3 value = open * (2.0f * share - halves);
+    t.total += value;
+    add_moments(t, value);
+    // A mix of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
+    t.variance += hours * open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
+    // The closed form is exact at a point; the texel's mean is had from a few.
+    t.uneven += std::sqrt(hours) * radiance * share * (t.open[0] - t.open[1]) / static_cast<float>(per_half);
+    const Vec3 difference = radiance * (t.open[0] * of_half[0] - t.open[1] * of_half[1]) / static_cast<float>(per_half);
+    t.difference += difference;
+    if (!booked_.empty()) booked_.of(i)[group] += value, booked_difference_.of(i)[group] += difference;
+    forget_light(t);
+  }
+}
+
+void DirectGroup::add_moments(Tally& t, const Vec3& value) {
+  const float seen = luminance(t.passed[0] + t.passed[1]);
+  if (seen > 0) t.moments += t.from * (std::max(0.0f, luminance(value)) / seen);
+}
+
+template <class Sample>
+void DirectGroup::sample_lights(const Sample& sample) {
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
+    const Point& point = points_[p];
+    Sampler sampler(d_.seed_ + seeds::kSky, stream_of(list_[point.texel], point.half), point.k);
+    const LightSample s = sample(point, sampler);
+    if (s.pdf == 0) continue;  // nothing, or punctual: those are done light by light
+    const float cosine = incidence(point.site.receiver(), s.direction);
+    const Vec3 value = s.estimate * (cosine * s.pdf / (s.pdf + cosine / kPi));
+    if (max_component(value) > 0 && is_usable(point, value))
+      shoot(p, {point.site.origin, s.direction, s.distance, false}, value, s.group);
+  }
+  finish_sampled();
+}
+
+void DirectGroup::finish_sampled() {
+  trace();
+  const auto n = static_cast<float>(per_half_);
+  for (Tally& t : tallies_) {
+    const Vec3 value = (t.passed[0] + t.passed[1]) / (kHalves * n);
+    t.total += value;
+    add_moments(t, value);
+    const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
+    t.variance += 0.25f * difference * difference;
+    t.difference += difference;
+    forget_light(t);
+  }
+  for (int h = 0; h < kHalves; ++h) {
+    booked_.add(booked_passed_[h], 1 / (kHalves * n));
+    booked_difference_.add(booked_passed_[h], (h == 0 ? 1 : -1) / n);
+    std::ranges::fill(booked_passed_[h].light, Vec3(0));
+  }
+}
+
+template <class Sample>
+void DirectGroup::sample_punctual(const Sample& sample) {
+  for (std::uint64_t pick = 0; pick < kPicks; ++pick)
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      Sampler sampler(d_.seed_ + seeds::kManyLights + pick, stream_of(list_[point.texel], point.half), point.k);
+      const LightSample s = sample(point, sampler);
+      if (s.pdf > 0) continue;  // an emissive surface, or the sky
+      const Vec3 value = s.estimate * (incidence(point.site.receiver(), s.direction) / static_cast<float>(kPicks));
+      if (max_component(value) > 0 && is_usable(point, value))
+        shoot(p, {point.site.origin, s.direction, s.distance}, value, s.group);
+    }
+  finish_sampled();
+}
+
+}  // namespace oriel

@@ -1,0 +1,123 @@
+#include "preview/arguments.h"
+
+#include "bake/run/option_table.h"
+#include "bake/run/version.h"
+#include "bake/run/view_options.h"
+#include "player/session/option_names.h"
+
+namespace oriel {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  oriel-preview house.glb                                      walk through it at once; the file is followed as it is saved
+  oriel-preview house.glb --offscreen --camera hall -o a.png   16 passes into a file
+  oriel-preview house.glb --offscreen --paths 256 -o a.exr     whole paths on top: towards oriel-bake render's
+
+Keys of the window are those of oriel-play: WASD and mouse walk, Tab opens the panel.)";
+
+constexpr std::uint32_t kMostPasses = 1u << 20;
+
+std::vector<Option> output_options(PreviewArguments& a) {
+  return {
+      {"SCENE", "Arguments", "The scene: .glb, or .gltf with its buffers and textures", path(a.scene.file, "FILE"),
+       Use::kRequired},
+      {"--offscreen", kFrameGroup, "Draws one frame into a file, without a window", flag(a.offscreen), Use::kEveryday},
+      {"-o,--output",
+       kFrameGroup,
+       "The picture: .png as shown, .exr linear cd/m²",
+       path(a.output, "FILE"),
+       Use::kEveryday,
+       {},
+       {},
+       {},
+       "--offscreen"},
+      camera_option(a.camera),
+      size_option(a.width, a.height),
+      {"--passes", kFrameGroup, "Passes over the frame that are added up while nothing moves",
+       number(a.passes, 1, kMostPasses), Use::kEveryday},
+      {"--paths", kFrameGroup,
+       "Whole paths a pixel after the passes, by the estimator of oriel-bake render. A window goes on with them as "
+       "long as nothing moves. Default: 4096 there, 0 of --offscreen",
+       number(a.paths, 0, kMostPasses), Use::kEveryday},
+      {"--ev", kFrameGroup, "Exposure value at ISO 100. Default: by the frame", number(a.ev100, -100, 100)},
+      {"--tonemap", kFrameGroup, "Tone curve of what is shown", choice(a.curve, kToneCurves)},
+      {"--frames", kFrameGroup, "The window closes after so many frames", number(a.frames, 1, 1e9)},
+      {"--pack", kFrameGroup, "The pack that \"bake this view\" writes. Default: beside the scene, .oriel",
+       path(a.pack, "FILE")},
+      {"--stats", kFrameGroup, "A line of JSON on stdout: seconds to the first lit frame, and of each stage of a pass",
+       flag(a.stats), Use::kEveryday},
+  };
+}
+
+std::vector<Option> effect_options(PreviewArguments& a) {
+  constexpr const char* kEffects = "Effects";
+  return {
+      {"--samples", kEffects,
+       "Points on lamps in each pass, shared by what they give what the eye sees; at least one for each kind of "
+       "lamp",
+       number(a.frame.samples, 1, 4096), Use::kEveryday},
+      {"--shadows", kEffects,
+       "By shadow volumes in the stencil buffer; by rays, which also see what glass and cut-outs let pass; auto: the "
+       "cheaper of both, as early passes measure; or none",
+       choice(a.frame.shadows, Names<ShadowMethod>{{"auto", ShadowMethod::kAuto},
+                                                   {"volumes", ShadowMethod::kVolumes},
+                                                   {"rays", ShadowMethod::kRays},
+                                                   {"none", ShadowMethod::kNone}}),
+       Use::kEveryday},
+      {"--shared", kEffects,
+       "Neighbouring pixels share the points on lamps, where rays find shadows: as a window does while one moves",
+       flag(a.frame.shared)},
+      {"--elements", kEffects,
+       "At most so many elements of surfaces shine back what comes to them, after any number of bounces; each pass "
+       "finds others, finer where the eye gets more of them, and takes 36; 0: none",
+       number(a.frame.elements, 0, 65536), Use::kEveryday},
+      {"--cap-rays", kEffects,
+       "Of --shadows volumes: which triangles hold the eye in their shadow, as so many rays from the view plane tell, "
+       "which miss some; 0: exactly",
+       number(a.frame.cap_rays, 0, 65536)},
+      {"--no-classes", kEffects,
+       "Traces every shadow ray. Otherwise one in eight is, where earlier passes saw a lamp wholly or not at all",
+       flag(a.frame.classes, false)},
+      {"--no-direct", kEffects, "Leaves out what lamps throw on surfaces", flag(a.frame.direct, false)},
+      {"--no-bounce", kEffects, "Leaves out what surfaces shine back", flag(a.frame.bounce, false)},
+      {"--no-emission", kEffects, "Leaves out what surfaces emit", flag(a.frame.emission, false)},
+      {"--no-traced", kEffects, "Leaves out reflections and what is behind glass, which rays find",
+       flag(a.frame.traced, false)},
+      {"--glossy", kEffects, "Roughness below which reflections are traced", number(a.frame.glossy, 0, 1)},
+      {"--no-antialias", kEffects, "Every pass looks through the pixels' centres", flag(a.frame.antialias, false)},
+  };
+}
+
+}  // namespace
+
+CommandLine preview_command_line(PreviewArguments& a, std::function<Status()> run) {
+  ToolCommand command{.name = "oriel-preview",
+                      .help = "Shows a scene as it will be lit, at once and better while one looks, before any bake",
+                      .footer = kFooter,
+                      .options = output_options(a)};
+  append(command.options, effect_options(a));
+  std::vector<Option> baked{mover_option(a.scene.import)};  // that oriel-bake takes too
+  append(baked, light_options(a.scene.import));
+  append(baked, scene_options(a.scene.import, a.reproducible));
+  append(baked, {{"--threads", "Run", "Threads of rays; 0: all CPUs", number(a.threads, 0, 1024), Use::kEveryday},
+                 {"--seed", "Run", "Of every random number", number(a.seed, 0, 18446744073709551615.0)}});
+  append(command.options, baked);
+  command.settle = [&a, baked](const Given& given) -> Status {
+    a.bake_options = given.words(baked);
+    if (a.pack.empty()) a.pack = std::filesystem::path(a.scene.file).replace_extension(".oriel");
+    if (a.frame.shared && (a.frame.shadows == ShadowMethod::kVolumes || a.frame.shadows == ShadowMethod::kNone))
+      return fail(ErrorCode::kUsage, "--shared",
+                  "found it with --shadows volumes or none, expected rays or auto: rays alone share points");
+    if (!a.offscreen) return {};
+    const auto ending = a.output.extension();
+    if (!a.output.empty() && ending != ".png" && ending != ".exr")
+      return fail(ErrorCode::kUsage, "-o " + a.output.string(), "found '{}', expected .png or .exr", ending.string());
+    if (a.output.empty() && !a.stats)
+      return fail(ErrorCode::kUsage, "--offscreen", "found no output, expected -o FILE.png, -o FILE.exr or --stats");
+    return {};
+  };
+  command.run = std::move(run);
+  return {kVersion, std::move(command)};
+}
+
+}  // namespace oriel
