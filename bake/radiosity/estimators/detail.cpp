@@ -118,7 +118,7 @@ class DetailMaker {
     if (level <= kWholeLevel) return [](auto...) { return true; };
     auto whole = std::make_shared<std::vector<LevelGrid>>();
     for (std::uint32_t p = 0; p < levels.size(); ++p)
-      whole->emplace_back(light_.pages[p], levels[p], kWholeLevel, *points_[kWholeLevel - 1u], p);
+      whole->emplace_back(light_.pages[p], levels[p], LevelGrid::Points{kWholeLevel, *points_[kWholeLevel - 1u]}, p);
     return [this, whole, level](std::uint32_t p, std::uint32_t place, std::uint32_t i, std::uint32_t j) {
       const LightmapPage& page = light_.pages[p];
       const Vec2 within = Vec2(i, j) / static_cast<float>(1u << level);
@@ -130,7 +130,7 @@ class DetailMaker {
   std::vector<CellCandidate> measured(const CellLevels& levels, std::span<const CellCandidate> found) {
     std::vector<CellCandidate> measured;
     for (std::uint32_t p = 0; points_[0] && p < levels.size(); ++p) {
-      const LevelGrid& grid = grids_.emplace_back(light_.pages[p], levels[p], std::uint8_t{1}, *points_[0], p);
+      const LevelGrid& grid = grids_.emplace_back(light_.pages[p], levels[p], LevelGrid::Points{1, *points_[0]}, p);
       const std::uint32_t width = light_.pages[p].width;
       for (CellCandidate cell : found)
         if (cell.page == p && levels[p][cell.place] > 0)

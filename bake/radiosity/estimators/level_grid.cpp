@@ -13,11 +13,11 @@ constexpr float kBothNoises = 0.5f;  // times
 
 }  // namespace
 
-LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& levels, std::uint8_t level,
-                     const PointLight& points, std::uint32_t page_number, const LevelGrid* whole)
-    : side_(1u << level), width_((page.width + 2) * side_) {
+LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& levels, const Points& points,
+                     std::uint32_t page_number)
+    : side_(1u << points.level), width_((page.width + 2) * side_) {
   for (std::uint32_t place = 0; place < levels.size(); ++place) {
-    if (!has_points(levels[place], level)) continue;
+    if (!has_points(levels[place], points.level)) continue;
     for (std::uint32_t j = 0; j <= side_; ++j)
       for (std::uint32_t i = 0; i <= side_; ++i) place_.push_back(number(place % page.width, place / page.width, i, j));
   }
@@ -26,16 +26,16 @@ LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& 
   change_.resize(place_.size()), noise_.resize(place_.size()), own_.resize(place_.size());
   for (std::size_t k = 0; k < place_.size(); ++k) {
     const std::uint32_t x = place_[k] % width_, y = place_[k] / width_;
-    const std::uint32_t point = points.texels.at(page_number, static_cast<int>(x), static_cast<int>(y));
-    if (point == kNoTexel || points.texels.visible[point] == 0) continue;
-    change_[k] = points.light[point] - between_texels(page, x, y);
-    noise_[k] = luminance(points.variance[point]);
+    const std::uint32_t point = points.light.texels.at(page_number, static_cast<int>(x), static_cast<int>(y));
+    if (point == kNoTexel || points.light.texels.visible[point] == 0) continue;
+    change_[k] = points.light.light[point] - between_texels(page, x, y);
+    noise_[k] = luminance(points.light.variance[point]);
     own_[k] = 1;
   }
   known_ = own_;
-  if (whole != nullptr)
-    fill_from(*whole, page, levels, [&](std::uint32_t x, std::uint32_t y) {
-      return points.texels.at(page_number, static_cast<int>(x), static_cast<int>(y)) != kNoTexel;
+  if (points.whole != nullptr)
+    fill_from(*points.whole, page, levels, [&](std::uint32_t x, std::uint32_t y) {
+      return points.light.texels.at(page_number, static_cast<int>(x), static_cast<int>(y)) != kNoTexel;
     });
   leave_noise();
   leave_dots();

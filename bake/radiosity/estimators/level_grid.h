@@ -10,11 +10,18 @@ namespace oriel {
 
 class LevelGrid {
  public:
-  // levels: by place of the page; the grid is that of cells that have points of `level`, and `points` hold theirs. Of
-  // what they change the share that is no noise is kept, and a point alone that differs more than all around it is
-  // none. whole: of kWholeLevel, where the level is more: between its points lies what `points` do not hold.
-  LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& levels, std::uint8_t level,
-            const PointLight& points, std::uint32_t page_number, const LevelGrid* whole = nullptr);
+  // The points of one level. whole: the grid of kWholeLevel, where the level is more: between its points lies what
+  // `points` do not hold.
+  struct Points {
+    std::uint8_t level;
+    const PointLight& light;
+    const LevelGrid* whole = nullptr;
+  };
+
+  // levels: by place of the page; the grid is that of cells that have points of that level. Of what they change the
+  // share that is no noise is kept, and a point alone that differs more than all around it is none.
+  LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& levels, const Points& points,
+            std::uint32_t page_number);
 
   // Of point (i, j) of the cell at (x, y), which must be of this level or beside one. Those inside something or beyond
   // the chart differ as their neighbours do.
