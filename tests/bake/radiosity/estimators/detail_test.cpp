@@ -264,7 +264,7 @@ TEST(Detail, ShowsTheEdgeOfTheSunsShadow) {
                          uv[0] + hit.barycentric.x * (uv[1] - uv[0]) + hit.barycentric.y * (uv[2] - uv[0]))
         .g;
   };
-  EXPECT_NEAR(shown(2.10f) - shown(1.96f), 1000, 30) << "within three eighths of a texel on each side of the edge";
+  EXPECT_NEAR(shown(2.05f) - shown(2.01f), 1000, 30) << "within a tenth of a texel on each side of the edge";
 }
 
 TEST(Detail, BringsShadowsNearerToTheTruth) {
