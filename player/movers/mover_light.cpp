@@ -52,6 +52,23 @@ class CornerFit {
   std::array<Vec4, 8> columns_;
 };
 
+// Each cluster's basis vectors times the light, `count` coefficients a colour.
+void fill_table(const CompressedTransfer& transfer, const std::vector<Vec4>& light, std::size_t count,
+                std::vector<Vec4>& table) {
+  const auto known = static_cast<std::size_t>(sh_count(transfer.bands));
+  const auto entries = static_cast<std::size_t>(transfer.components + 1);
+  for (std::size_t row = 0; row < table.size() / 3; ++row) {
+    const std::size_t cluster = row / entries, k = row % entries;
+    const float scale = k == 0 ? 1 : transfer.weight_scale[cluster * (entries - 1) + k - 1];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float* basis = transfer.basis.data() + row * transfer.stride() + (transfer.channels == 3 ? c * known : 0);
+      Vec4 sum(0);
+      for (std::size_t i = 0; i < known; ++i) sum += basis[i] * light[c * count + i];
+      table[3 * row + c] = scale * sum;
+    }
+  }
+}
+
 }  // namespace
 
 MoverLight light_mover(const LightField& field, const CompressedTransfer& transfer, const Bounds& box,
@@ -89,18 +106,7 @@ MoverLight light_mover(const LightField& field, const CompressedTransfer& transf
       for (std::size_t k = 0; k < count; ++k) light[c * count + k][part] = object[k];
     }
 
-  const auto known = static_cast<std::size_t>(sh_count(transfer.bands));
-  for (std::size_t row = 0; row < out.table.size() / 3; ++row) {
-    const std::size_t cluster = row / entries, k = row % entries;
-    const float scale = k == 0 ? 1 : transfer.weight_scale[cluster * (entries - 1) + k - 1];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float* basis = transfer.basis.data() + row * transfer.stride() + (transfer.channels == 3 ? c * known : 0);
-      Vec4 sum(0);
-      for (std::size_t i = 0; i < known; ++i) sum += basis[i] * light[c * count + i];
-      out.table[3 * row + c] = scale * sum;
-    }
-  }
-
+  fill_table(transfer, light, count, out.table);
   for (std::uint32_t l = 0; l < field.lights.size(); ++l) {
     bool shines = false;
     const auto share = [&](std::size_t i) {

@@ -149,6 +149,31 @@ void place_triangles(const Atlas& atlas, Texels& texels) {
   }
 }
 
+// Their pages and where they lie on these; nothing else of them.
+Texels place_texels(const Atlas& atlas, std::span<const TexelMapPage> texel_map) {
+  Texels texels;
+  for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
+    const TexelMapPage& map = texel_map[p];
+    const std::size_t places = std::size_t{map.width} * map.height;
+    texels.pages.push_back({map.width, map.height, {}, {}, static_cast<std::uint32_t>(texels.page.size())});
+    Texels::Page& page = texels.pages.back();
+    if (places > kSparse * map.texel.size())
+      page.place = map.texel;
+    else
+      page.number.assign(places, kNoTexel);
+    for (std::uint32_t i = 0; i < map.texel.size(); ++i) {
+      if (!page.number.empty()) page.number[map.texel[i]] = static_cast<std::uint32_t>(texels.page.size());
+      texels.page.push_back(p);
+      texels.index.push_back(i);
+      texels.covered.push_back(covered_share(map, i));
+      texels.x.push_back(map.texel[i] % map.width);
+      texels.y.push_back(map.texel[i] / map.width);
+      texels.chart.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);
+    }
+  }
+  return texels;
+}
+
 }  // namespace
 
 std::uint32_t Texels::at(std::uint32_t page_number, int px, int py) const {
@@ -232,27 +257,8 @@ double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage&
 
 Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const TexelUse& use) {
   const auto& [t, atlas, texel_map] = scene;
-  Texels texels;
+  Texels texels = place_texels(atlas, texel_map);
   texels.eyes.assign(use.eyes.begin(), use.eyes.end());
-  for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
-    const TexelMapPage& map = texel_map[p];
-    const std::size_t places = std::size_t{map.width} * map.height;
-    texels.pages.push_back({map.width, map.height, {}, {}, static_cast<std::uint32_t>(texels.page.size())});
-    Texels::Page& page = texels.pages.back();
-    if (places > kSparse * map.texel.size())
-      page.place = map.texel;
-    else
-      page.number.assign(places, kNoTexel);
-    for (std::uint32_t i = 0; i < map.texel.size(); ++i) {
-      if (!page.number.empty()) page.number[map.texel[i]] = static_cast<std::uint32_t>(texels.page.size());
-      texels.page.push_back(p);
-      texels.index.push_back(i);
-      texels.covered.push_back(covered_share(map, i));
-      texels.x.push_back(map.texel[i] % map.width);
-      texels.y.push_back(map.texel[i] / map.width);
-      texels.chart.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);
-    }
-  }
   const std::size_t n = texels.count();
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
       texels.diffuse_share.resize(n), texels.has_many.resize(n), texels.is_cut.resize(n);
