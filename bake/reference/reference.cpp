@@ -3,6 +3,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/reference/glints.h"
 #include "bake/trace/albedo.h"
+#include "formats/image/display.h"
 #include "formats/image/relative_error.h"
 #include "formats/query/camera.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 struct PixelLight {
   Vec3 direct{0}, indirect{0}, specular{0}, emission{0};
+  Vec3 total() const { return direct + indirect + specular + emission; }
 };
 
 PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std::uint64_t& rays) {
@@ -25,6 +27,10 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
   const auto begin = [&](const char* what) {
     if (t.listener) t.listener->begin(what), t.listener->meet(surface, Vec3(1));
   };
+  if (t.accel.scene().material_of(hit.triangle).unlit) {
+    light.emission = t.options.unlit_white * surface.shade.base_color;
+    return light;
+  }
   if (surface.shade.inside) {  // the eye is in glass
     begin("radiance within glass, cd/m2");
     const PathLight within = trace_path(t, ray, 0, sampler, rays);
@@ -119,11 +125,34 @@ ReferenceFrame frame_of(const std::vector<PixelSums>& sums, const ReferenceOptio
 
 }  // namespace
 
+Transport for_eyes(const Transport& t, const Camera& camera, ReferenceOptions options, std::uint64_t seed) {
+  constexpr int kRows = 24;
+  constexpr std::uint32_t kPaths = 64;  // few make the mean of logarithms too small
+  Transport out = t;
+  std::uint64_t rays = 0;
+  const auto is_unlit = [](const SceneMaterial& m) { return m.unlit; };
+  const std::vector<SceneMaterial>& materials = t.accel.scene().materials;
+  if (out.options.unlit_white > 0 || std::none_of(materials.begin(), materials.end(), is_unlit)) return out;
+  out.listener = nullptr;
+  options.width = std::max(1, kRows * options.width / options.height);
+  options.height = kRows;
+  options.antialias = false;  // a pixel is lit or it is not
+  FloatImage lit{static_cast<std::uint32_t>(options.width), kRows, 3, {}};
+  for (std::uint32_t i = 0; i < lit.width * lit.height; ++i) {
+    DVec3 sum(0);
+    for (std::uint32_t k = 0; k < kPaths; ++k)
+      sum += DVec3(sample_pixel(out, camera, options, {seed, i % lit.width, i / lit.width, k}, rays).total());
+    push(lit, sum / double{kPaths});
+  }
+  out.listener = t.listener;
+  out.options.unlit_white = white_of(lit);
+  return out;
+}
+
 Vec3 trace_sample(const Transport& transport, const Camera& camera, const ReferenceOptions& options,
                   const PixelSample& sample) {
   std::uint64_t rays = 0;
-  const PixelLight light = sample_pixel(transport, camera, options, sample, rays);
-  return light.direct + light.indirect + light.specular + light.emission;
+  return sample_pixel(transport, camera, options, sample, rays).total();
 }
 
 Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
@@ -132,13 +161,14 @@ Result<ReferenceFrame> render_reference(const Transport& transport, const Camera
   const auto width = static_cast<std::size_t>(options.width), height = static_cast<std::size_t>(options.height);
   std::vector<PixelSums> sums(width * height);
   std::atomic<std::uint64_t> total_rays{0};
+  const Transport seen = for_eyes(transport, camera, options, context.seed);
   const auto round = [&](std::uint32_t from, std::uint32_t to) {
     const auto row = [&](std::size_t y) {
       std::uint64_t rays = 0;
       for (std::size_t x = 0; x < width && !context.stopped(); ++x)
         for (std::uint32_t i = from; i < to; ++i)
           sums[y * width + x].add(
-              sample_pixel(transport, camera, options,
+              sample_pixel(seen, camera, options,
                            {context.seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), i}, rays));
       total_rays += rays;
     };

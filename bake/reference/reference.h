@@ -28,11 +28,16 @@ struct ReferenceFrame {
   double relative_noise = 0;  // root of the mean of noise² / (total² + (0.01 mean)²), means over pixels and channels
 };
 
+// The transport with unlit_white as this frame shows it: what is white where its lit part is, on the (log) average,
+// middle grey. As it was where the scene has no unlit surface or it is set.
+Transport for_eyes(const Transport& transport, const Camera& camera, ReferenceOptions options, std::uint64_t seed);
+
 // Paths start as pixel_ray() of formats/query has them. Error kStopped only.
 Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
                                         const ReferenceOptions& options, Context& context);
 
-// One sample of a pixel of that frame alone, from the same random numbers: its radiance, cd/m².
+// One sample of a pixel of that frame alone (of for_eyes()'s transport), from the same random numbers: its radiance,
+// cd/m².
 struct PixelSample {
   std::uint64_t seed = 1;
   std::uint32_t x = 0, y = 0, number = 0;

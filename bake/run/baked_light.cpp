@@ -28,7 +28,7 @@ Vec3 direction_at(const LightmapPage& page, const Vec2& uv) {
 // Emission and diffuse reflection, and where wide_lobe the specular one too, as if its lobe were that wide.
 Vec3 shown_light(const BakedScene& baked, const SeenSurface& seen, const SurfacePoint& surface, bool wide_lobe) {
   const Scene& scene = baked.accel.scene();
-  if (scene.material_of(seen.hit.triangle).unlit) return surface.shade.base_color;
+  if (scene.material_of(seen.hit.triangle).unlit) return baked.unlit_white * surface.shade.base_color;
   const Vec3 light = surface.emits && seen.emission ? surface.shade.emission : Vec3(0);
   if (!seen.hit.front) return light;  // lit backs have triangles of their own
   const Vec3 r = reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye));

@@ -21,6 +21,7 @@ struct BakedScene {
   const LightSet& lights;
   const Atlas& atlas;
   std::span<const LightmapPage> pages;
+  float unlit_white = 1;  // what white unlit surfaces show, cd/m²
 };
 
 // Radiance that a surface sends towards the eye, cd/m², by the player's shading equation: (1 - max R) kd/π E, the

@@ -96,7 +96,7 @@ std::vector<Hash128> surface_looks(const Scene& s) {
 
 void fields(Archive& archive, const LitScene& of) {
   const Scene& scene = of.baked.accel.scene();
-  archive(SurfacesOf{scene}, LightsOf{scene}, LayoutOf{of.baked.atlas}, of.baked.pages);
+  archive(SurfacesOf{scene}, LightsOf{scene}, LayoutOf{of.baked.atlas}, of.baked.pages, of.baked.unlit_white);
 }
 
 }  // namespace oriel

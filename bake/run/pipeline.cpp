@@ -16,6 +16,7 @@
 #include "bake/run/shortfalls.h"
 #include "bake/run/start.h"
 #include "bake/run/time_budget.h"
+#include "bake/run/unlit.h"
 #include "bake/run/visibility.h"
 #include "formats/core/color.h"
 
@@ -98,6 +99,7 @@ class Bake {
     ORIEL_TRY_VOID(foretell_reflections());
     ORIEL_TRY_VOID(bake_lightmap());
     ORIEL_TRY_VOID(keep_energy_ledger());
+    ORIEL_TRY_VOID(weigh_unlit());
     ORIEL_TRY_VOID(capture_reflections());
     ORIEL_TRY_VOID(make_light_field());
     ORIEL_TRY_VOID(assemble());
@@ -244,6 +246,12 @@ class Bake {
     return {};
   }
 
+  Status weigh_unlit() {
+    const auto eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
+    ORIEL_TRY(unlit_white_, unlit_white(task(), path_options(options_), eyes));
+    return {};
+  }
+
   Status capture_reflections() {
     if (!options_.with_radiance) {
       result_.omissions.emplace_back("radiance maps: left out by --only");
@@ -296,6 +304,8 @@ class Bake {
     context_.foretell("writing", 0);
     if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
     fill_pack(scene(), std::move(materials_), std::move(mesh_), pack());
+    for (Material& material : pack().materials)
+      if (material.unlit) material.emission = Vec3(unlit_white_);
     ORIEL_TRY_VOID(timed_("light groups", [&](std::uint64_t& rays) -> Status {
       assemble_light_groups(task().baked(), std::exchange(radiosity_.groups, {}), rays, pack());
       return {};
@@ -340,7 +350,7 @@ class Bake {
   const Accel& accel() const { return *prepared_.accel; }
   Pack& pack() { return result_.pack; }
   LightmapScene laid_out() const { return {*transport_, prepared_.atlas, prepared_.texel_map}; }
-  BakeTask task() { return {options_, prepared_, *lights_, context_, pack()}; }
+  BakeTask task() { return {options_, prepared_, *lights_, context_, pack(), unlit_white_}; }
   template <class Lines>
   void omit(const Lines& lines) {
     result_.omissions.insert(result_.omissions.end(), lines.begin(), lines.end());
@@ -366,6 +376,7 @@ class Bake {
   AssembledMesh mesh_;
   VisibilityReport visibility_;
   std::vector<MoverReport> movers_;
+  float unlit_white_ = 1;
   double later_s_ = 0;  // that all stages behind the lightmap are likely to take
   Radiosity radiosity_;
   ReflectionReport reflections_;

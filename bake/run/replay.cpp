@@ -88,7 +88,7 @@ Result<std::string> replay_pixel(const Transport& transport, const Camera& camer
     return fail(ErrorCode::kUsage, fmt::format("pixel:{},{}", first.x, first.y),
                 "lies outside the frame of {} x {} pixels", options.width, options.height);
   PathText listener(transport.accel.scene());
-  Transport told = transport;
+  Transport told = for_eyes(transport, camera, options, first.seed);
   told.listener = &listener;
   DVec3 sum(0);
   PixelSample sample = first;

@@ -14,12 +14,13 @@ struct BakeTask {
   const PreparedScene& prepared;
   const LightSet& lights;  // of the prepared scene
   Context& context;
-  Pack& pack;  // in the making
+  Pack& pack;             // in the making
+  float unlit_white = 1;  // cd/m², unlit.h
 
   const Scene& scene() const { return prepared.scene(); }
   const Accel& accel() const { return *prepared.accel; }
   // With the light that the pack has so far.
-  BakedScene baked() const { return {accel(), lights, prepared.atlas, pack.lightmaps}; }
+  BakedScene baked() const { return {accel(), lights, prepared.atlas, pack.lightmaps, unlit_white}; }
 };
 
 }  // namespace oriel

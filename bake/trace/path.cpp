@@ -2,6 +2,7 @@
 
 #include "bake/trace/albedo.h"
 #include "bake/trace/glass.h"
+#include "bake/trace/sampled_lights.h"
 #include "bake/trace/shading.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
@@ -10,81 +11,6 @@ namespace oriel {
 namespace {
 
 constexpr float kMostPaths = 16;  // that one splits into at a time
-
-// What a path is traced with.
-struct Tracing {
-  const Transport& transport;
-  Sampler& sampler;
-  std::uint64_t& rays;
-};
-
-float balance(float pdf, float other) {
-  return pdf / (pdf + other);
-}
-
-// Incident light from one sampled emitter, times f·cosθ as `reflect(wi)` gives it; `pdf_of(wi)` is the density with
-// which the other strategy would have chosen that direction.
-struct FromEmitter {
-  Vec3 light{0};
-  bool near = false;        // LightSample::near
-  std::uint32_t group = 0;  // LightSample::group
-  Vec3 direction{0, 0, 1};  // LightSample::direction
-};
-template <class Reflect, class Pdf>
-FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const Reflect& reflect, const Pdf& pdf_of) {
-  const Transport& t = by.transport;
-  Sampler& sampler = by.sampler;
-  std::uint64_t& rays = by.rays;
-  const float u = sampler.next1();
-  const Vec2 v = sampler.next2();
-  if (t.lights.empty()) return {};
-  // Sampled from where the shadow ray starts: close to a lamp over a large floor the offset is not small.
-  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
-  const LightSample light = t.lights.sample(origin, u, v);
-  if (max_component(light.estimate) <= 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return {};
-  Vec3 value = light.estimate * reflect(light.direction);
-  if (max_component(value) <= 0) return {};
-  if (light.pdf > 0) value *= balance(light.pdf, pdf_of(light.direction));
-  if (!is_usable(value)) {
-    t.accel.dropped().add(surface.triangle);
-    return {};
-  }
-  if (!(light.distance > 0)) return {value, light.near, light.group, light.direction};  // touching
-  ++rays;
-  const Ray ray{origin, light.direction, light.distance, light.pdf == 0};
-  return {value * t.accel.transmittance(ray), light.near, light.group, light.direction};
-}
-
-void book(const Transport& t, LightBook::Kind kind, std::uint32_t group, const Vec3& direction, const Vec3& light) {
-  if (!t.book) return;
-  each_owner(t.accel.scene(), group, direction, light,
-             [&](std::uint32_t owner, const Vec3& part) { t.book->add(kind, owner, part); });
-}
-
-// The same of lights in mirrors, which no other strategy finds, by way of so many at most. add(direction, group,
-// light).
-template <class Reflect, class Add>
-void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mirrors, const Reflect& reflect,
-                     const Add& add) {
-  const Transport& t = by.transport;
-  Sampler& sampler = by.sampler;
-  std::uint64_t& rays = by.rays;
-  const VirtualLights& mirrored = t.lights.mirrored();
-  if (mirrored.empty()) return;
-  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
-  const float u = sampler.next1();
-  const Vec2 v = sampler.next2();
-  mirrored.choose(u, [&](std::size_t i, float weight) {
-    if (mirrored[i].order > most_mirrors || !mirrored[i].may_reach(DVec3(origin), 0)) return;
-    const MirroredSample light = mirrored.sample(i, t.lights, origin, v);
-    if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;
-    Vec3 value = weight * light.endless * light.share * reflect(light.direction);
-    if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
-    if (!is_usable(value) || max_component(value) <= 0) return;
-    value *= t.accel.transmittance_of_all(light.rays(), rays);
-    if (max_component(value) > 0) add(light.direction, light.group, value);
-  });
-}
 
 FromEmitter sample_lights_bsdf(const Tracing& by, const SurfacePoint& surface, const Shading& shading) {
   return sample_lights(
@@ -97,9 +23,12 @@ class PathTracer {
   PathTracer(const Transport& t, Sampler& sampler, std::uint64_t& rays, const OnDiffuse* on_diffuse = nullptr)
       : t_(t), sampler_(sampler), rays_(rays), on_diffuse_(on_diffuse), mirrored_(on_diffuse != nullptr) {}
 
+  // It is what an eye sees.
+  void show_unlit() { eyes_ = t_.options.unlit_white > 0; }
   // The path goes on by a sample of a surface's lobes.
   void leave(const SurfacePoint& surface, const BsdfSample& sample) {
     const bool refracted = sample.lobe == Lobe::kRefraction;
+    eyes_ = eyes_ && sample.lobe != Lobe::kDiffuse;
     mirrored_ = mirrored_ && !(is_frosted(surface.shade) && (refracted || surface.shade.inside));
     medium_.leave(surface.shade, refracted);
     squeeze_ *= sample.squeeze;
@@ -140,6 +69,10 @@ class PathTracer {
       SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
       throughput_ *= medium_.passed(t_.accel.scene(), hit);
       if (t_.listener) t_.listener->meet(surface, throughput_);
+      if (eyes_ && t_.accel.scene().material_of(hit.triangle).unlit) {
+        light.scattered += throughput_ * t_.options.unlit_white * surface.shade.base_color;
+        break;
+      }
       if (surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage) {
         ray.origin = spawn_origin(surface, ray.direction);
         ++passes;
@@ -266,7 +199,8 @@ class PathTracer {
   Sampler& sampler_;
   std::uint64_t& rays_;
   const OnDiffuse* on_diffuse_;
-  bool mirrored_;  // no diffuse vertex so far was followed, nor light through frosted glass
+  bool eyes_ = false;  // it is what an eye sees: unlit surfaces show
+  bool mirrored_;      // no diffuse vertex so far was followed, nor light through frosted glass
   Vec3 throughput_{1};
   Vec3 from_{0};   // last vertex that chose a direction
   float pdf_ = 0;  // with this density
@@ -300,6 +234,7 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = sample->delta ? 0 : shading.pdf(direction);
   PathTracer path(t, sampler, rays, on_diffuse);
+  path.show_unlit();
   path.leave(surface, *sample);
   const PathLight rest = path.follow(ray, pdf, 1, sample->weight);
   light.scattered += rest.scattered;
@@ -310,7 +245,9 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
 }  // namespace
 
 PathLight trace_path(const Transport& t, const Ray& ray, float bsdf_pdf, Sampler& sampler, std::uint64_t& rays) {
-  return PathTracer(t, sampler, rays).follow(ray, bsdf_pdf, 0, Vec3(1));
+  PathTracer path(t, sampler, rays);
+  path.show_unlit();
+  return path.follow(ray, bsdf_pdf, 0, Vec3(1));
 }
 
 PathLight trace_to_diffuse(const Transport& t, const TracedRay& traced, Sampler& sampler, std::uint64_t& rays,
@@ -331,6 +268,7 @@ Vec3 refracted_light(const Transport& t, const SurfacePoint& surface, const Vec3
   if (!sample || !(max_component(sample->weight) > 0)) return Vec3(0);
   const Vec3 direction = shading.world(*sample);
   PathTracer path(t, sampler, rays);
+  path.show_unlit();
   path.leave(surface, *sample);
   return path.follow({spawn_origin(surface, direction), direction}, 0, 1, sample->weight).scattered;
 }

@@ -31,11 +31,11 @@ struct Material {
   bool unlit = false;                 // shown as base colour, takes no part in light transport
   float metallic = 0, roughness = 1;  // [0,1]; averages over the material's texture where it has one
   float ior = 1.5f;                   // of the dielectric part
-  Vec3 f0{0.04f};                 // reflectance at normal incidence: metals' colour, dielectrics' from ior and specular
-  float transmission = 0;         // [0,1], thin
-  Vec3 emission{0};               // cd/m², the average over its texture where it has one
-  std::int32_t kernel = -1;       // into Pack::kernels: K, for reflective materials
-  std::int32_t fresnel_map = -1;  // into Pack::fresnel_maps: R
+  Vec3 f0{0.04f};          // reflectance at normal incidence: metals' colour, dielectrics' from ior and specular
+  float transmission = 0;  // [0,1], thin
+  Vec3 emission{0};  // cd/m², the average over its texture where it has one; of an unlit one its white in mirrors
+  std::int32_t kernel = -1;          // into Pack::kernels: K, for reflective materials
+  std::int32_t fresnel_map = -1;     // into Pack::fresnel_maps: R
   std::int32_t normal_texture = -1;  // into Pack::normal_textures
   float normal_scale = 1;            // of the map's x and y, within ±1e6
 };

@@ -181,7 +181,6 @@ Status compare_with_pack(GpuScene& scene, Renderer& renderer, const gpu::Device&
   FrameOptions options = arguments.frame;
   ORIEL_TRY(options.poses, poses_at(scene.pack(), arguments.moves, arguments.time_s));
   ORIEL_TRY(options.lamps, lamps_at(scene.pack(), arguments.moves));
-  if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
   const View view = make_view(camera, arguments.width, arguments.height, bounds_with_movers(scene, options.poses));
   ORIEL_TRY_VOID(renderer.render(scene, view, options));
   ORIEL_TRY(const std::optional<float> metered, renderer.meter());
@@ -222,7 +221,6 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(options.lamps, lamps_at(scene->pack(), arguments.moves));
   const View view = make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height),
                               bounds_with_movers(*scene, options.poses));
-  if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
   if (!reference.rendered) {
     ORIEL_TRY_VOID(renderer->render(*scene, view, options));
     return compare_with_picture(reference, *renderer, arguments);

@@ -45,7 +45,6 @@ class Studio {
       scene.make_fewer();
     }
     session_.shown_ev100 = arguments.ev100.value_or(0.0f);
-    if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
   }
 
   // What takes seconds is told before: lamps' light from where they were moved to, which the first frame follows.

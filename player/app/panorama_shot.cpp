@@ -40,7 +40,6 @@ class PanoramaStudio {
     PictureNotes notes{views.cameras[0], scene_.pack().mesh.origin, shot.name, 0, arguments_.curve};
     notes.camera.vertical_fov_rad = kPi;
     ORIEL_TRY(notes.ev100, expose(views));
-    options_.white = white_of_exposure(notes.ev100);
     const bool linear = is_linear_file(shot.file);
     const auto size = static_cast<std::uint32_t>(views.size);
     std::array<FloatImage, 6> faces;

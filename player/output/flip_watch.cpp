@@ -22,7 +22,6 @@ FloatImage encoded(const ByteImage& shown) {
 bool same(const FlipWatch::Key& a, const FlipWatch::Key& b) {
   FrameOptions of_a = a.options, of_b = b.options;
   of_a.timed = of_b.timed = false;
-  of_a.white = of_b.white = 0;  // follows the exposure
   return a.size == b.size && a.image_bytes == b.image_bytes && a.curve == b.curve &&
          std::fabs(a.ev100 - b.ev100) < kSameEv && of_a == of_b && a.camera.eye == b.camera.eye &&
          a.camera.forward == b.camera.forward && a.camera.up == b.camera.up &&

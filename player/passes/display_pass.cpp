@@ -113,6 +113,7 @@ void DisplayPass::draw(const FrameTarget& frame, float ev100, ToneCurve curve) c
   program.set("u_samples", frame.samples());
   program.set("u_frame_size", frame.size());
   program.set("u_exposure", 1 / white_of_exposure(ev100));
+  program.set("u_unlit_exposure", 1 / frame.unlit_white);
   program.set("u_curve", curve == ToneCurve::kAces ? 1 : 0);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -111,23 +111,13 @@ Result<std::optional<BrightChange>> Renderer::draw_change(const FrameContext& co
   return change;
 }
 
-Result<float> Renderer::white_for(const FrameContext& context) {
-  if (context.options.white > 0 || !needs_white(context.scene)) return context.options.white;
-  frame_->resolve_light();
-  ORIEL_TRY(const std::optional<float> ev100, meter());
-  frame_->drawn().bind();
-  glViewport(0, 0, frame_->light.width(), frame_->light.height());
-  return white_of_exposure(ev100.value_or(0.0f));
-}
-
-Status Renderer::draw_see_through(const FrameContext& context, const SceneWeights& weights, float white) {
-  if (context.scene.glass().empty()) return scene_pass_.draw_transparent(context, weights, white);
+Status Renderer::draw_see_through(const FrameContext& context, const SceneWeights& weights) {
+  if (context.scene.glass().empty()) return scene_pass_.draw_transparent(context, weights);
   ORIEL_TRY_VOID(glass_pass_.prepare(context, scene_pass_));
   frame_->drawn().bind();
   glViewport(0, 0, context.view.width, context.view.height);
-  return scene_pass_.draw_transparent(context, weights, white, [&](const GlassBody&, std::size_t body) {
-    return glass_pass_.draw(context, *frame_, body);
-  });
+  return scene_pass_.draw_transparent(
+      context, weights, [&](const GlassBody&, std::size_t body) { return glass_pass_.draw(context, *frame_, body); });
 }
 
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
@@ -137,15 +127,14 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
-  // Of what is shown as white, see-through unlit surfaces.
-  const bool white_fits = !needs_white(scene) || (options.white > 0 && options.white < 4e4f);
-  const bool halves = options.halves && white_fits && scene.fits_halves();
+  const bool halves = options.halves && scene.fits_halves();
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples, halves));
   reflections_.use_halves(halves);
   FrameStats stats;
   const FrameContext context{scene, view, options, stats};
   clock_.start(options.timed);
   frame_->shows_samples = frame_->samples() > 1;
+  frame_->unlit_white = scene.unlit_white();
   frame_->drawn().bind();
   clear_bound(view, options.show == Show::kAll ? scene.pack().sky : Vec3(0));
 
@@ -189,8 +178,7 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
                          change ? &change->on_movers : nullptr);
       });
     }
-    ORIEL_TRY(const float white, white_for(context));
-    ORIEL_TRY_VOID(clock_.time(Pass::kTransparent, [&] { return draw_see_through(context, weights, white); }));
+    ORIEL_TRY_VOID(clock_.time(Pass::kTransparent, [&] { return draw_see_through(context, weights); }));
   }
   for (const MarkedReflector& m : marked)
     if (m.value == 0) ORIEL_TRY_VOID(reflections_.draw(work, target, m, &clock_));

@@ -54,8 +54,7 @@ class Renderer {
   Result<std::optional<BrightChange>> draw_change(const FrameContext& context, std::span<const DrawBatch> shown,
                                                   std::span<const PlacedMover> movers);
   // See-through surfaces and bodies of glass.
-  Status draw_see_through(const FrameContext& context, const SceneWeights& weights, float white);
-  Result<float> white_for(const FrameContext& context);
+  Status draw_see_through(const FrameContext& context, const SceneWeights& weights);
 
   gpu::Device device_;
   ScenePass scene_pass_;

@@ -160,8 +160,7 @@ Status GlassPass::draw_around(const FrameContext& context, std::size_t body, con
     const FrameContext outside{scene, view, context.options, context.stats};
     const MirroredScene seen{visible_batches(scene.opaque(), make_frustum(view.clip_from_pack)), {}, {}};
     scene_pass.draw_reflected(outside, seen);
-    ORIEL_TRY_VOID(scene_pass.draw_transparent(outside, {}, context.options.white,
-                                               [](const GlassBody&, std::size_t) { return Status(); }));
+    ORIEL_TRY_VOID(scene_pass.draw_transparent(outside, {}, [](const GlassBody&, std::size_t) { return Status(); }));
   }
   around.make_mipmaps();
   return {};

@@ -240,7 +240,7 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
     work.mover_pass.draw_depth(within.context, work.movers);
     work.mover_pass.draw_reflected(within.context, work.movers);
   }
-  return work.scene_pass.draw_transparent(within.context, {}, options.white);
+  return work.scene_pass.draw_transparent(within.context, {});
 }
 
 // The opaque scene in a mirror, with what its own reflectors show.

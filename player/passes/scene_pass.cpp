@@ -193,16 +193,12 @@ void ScenePass::draw_reflected(const FrameContext& context, const MirroredScene&
     for (const DrawBatch& batch : visible_batches(scene.emitter(emitter), frustum)) draw(batch, 1, 0);
 }
 
-Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeights& weights, float white,
+Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeights& weights,
                                    const DrawGlass& glass) const {
   const auto& [scene, view, options, stats] = context;
   std::vector<SeeThrough> sorted = see_through(scene, view);
   if (sorted.empty()) return {};
-  const auto start = [&] {
-    set_frame(transparent_, context);
-    transparent_.set("u_unlit_scale", white);
-  };
-  start();
+  set_frame(transparent_, context);
   gpu::RasterState state;
   state.depth_test = true;
   state.alpha_write = false;
@@ -211,7 +207,7 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
   for (const SeeThrough& one : sorted) {
     if (glass && one.body) {
       ORIEL_TRY_VOID(glass(*one.body, one.index));
-      start();
+      set_frame(transparent_, context);
     }
     for (const DrawRange& range : one.ranges) {
       state.cull = cull_of(scene.pack().materials[range.material]);
@@ -230,11 +226,6 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
     }
   }
   return {};
-}
-
-bool needs_white(const GpuScene& scene) {
-  return std::any_of(scene.transparent().begin(), scene.transparent().end(),
-                     [&](const DrawRange& range) { return scene.pack().materials[range.material].unlit; });
 }
 
 }  // namespace oriel

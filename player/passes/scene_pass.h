@@ -51,10 +51,8 @@ class ScenePass {
   // for an orthographic view 1 / its depth, at least kClosest.
   void draw_reflected(const FrameContext& context, const MirroredScene& mirrored) const;
   // See-through surfaces, blended; the undirected part only where the see-through bit is clear, in a mirrored view,
-  // which has no stencil, everywhere. white: as FrameOptions. glass: of bodies; none: they are drawn thin. Errors of
-  // it.
-  Status draw_transparent(const FrameContext& context, const SceneWeights& weights, float white,
-                          const DrawGlass& glass = {}) const;
+  // which has no stencil, everywhere. glass: of bodies; none: they are drawn thin. Errors of it.
+  Status draw_transparent(const FrameContext& context, const SceneWeights& weights, const DrawGlass& glass = {}) const;
 
  private:
   void draw_depths(const FrameContext& context, std::span<const DrawBatch> shown) const;
@@ -62,8 +60,5 @@ class ScenePass {
   // a mirror.
   gpu::Program depth_, plain_depth_, opaque_, plain_opaque_, reflected_opaque_, transparent_;
 };
-
-// Whether a see-through surface is unlit, so that the frame's white must be known to draw it.
-bool needs_white(const GpuScene& scene);
 
 }  // namespace oriel

@@ -5,14 +5,16 @@
 
 namespace oriel {
 
-// The frame: light in cd/m² (a: 0 nothing, 1 light, 2 a colour to be shown as it is), depth, stencil. With several
-// samples a pixel passes draw into those, and the frame itself is what resolve_…() last made of them.
+// The frame: light in cd/m² (a: 0 nothing, 1 of lit surfaces, 2 of unlit ones, to be shown by their own white), depth,
+// stencil. With several samples a pixel passes draw into those, and the frame itself is what resolve_…() last made of
+// them.
 struct FrameTarget {
   gpu::Texture2d light, depth;
   gpu::Framebuffer framebuffer;
   gpu::MultisampleTexture light_samples, depth_samples;  // none: a sample a pixel
   gpu::Framebuffer sampled;
   int asked = 1;               // samples; the device may have given more
+  float unlit_white = 1;       // of the unlit ones, cd/m²
   bool halves = false;         // light is half floats
   bool shows_samples = false;  // what is shown is the mean of the samples, once each is tone-mapped; else `light`
 

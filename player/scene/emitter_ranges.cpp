@@ -49,7 +49,8 @@ std::vector<EmitterTriangles> triangles_of(const Emitter& emitter, const Pack& p
   std::vector<EmitterTriangles> out;
   for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
     const MeshPart& part = mesh.parts[p];
-    if (pack.materials[part.material].emission == Vec3(0)) continue;
+    const Material& material = pack.materials[part.material];
+    if (material.unlit || material.emission == Vec3(0)) continue;
     EmitterTriangles found{p, {}};
     for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; i += 3) {
       const auto corners = std::span(mesh.indices).subspan(i, 3);

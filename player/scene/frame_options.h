@@ -78,7 +78,6 @@ struct FrameOptions {
   // Which it is of frames that are added up: lights' points and rays of frosted glass are others in each, even over
   // all.
   std::uint32_t look = 0;
-  float white = 0;  // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 
   bool operator==(const FrameOptions&) const = default;
 };

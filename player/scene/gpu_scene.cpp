@@ -313,9 +313,17 @@ const EmissionTexture* GpuScene::emission_texture(std::uint32_t material) const 
 
 Vec3 GpuScene::brightest_emission(std::uint32_t material) const {
   Vec3 brightest = pack_.materials[material].emission;
+  if (pack_.materials[material].unlit) return brightest == Vec3(0) ? Vec3(1) : brightest;
   if (const EmissionTexture* picture = emission_texture(material))
     for (int c = 0; c < 3; ++c) brightest[c] = picture->mean[c] > 0 ? brightest[c] / picture->mean[c] : 0.0f;
   return brightest;
+}
+
+float GpuScene::unlit_white() const {
+  float white = 0;
+  for (std::uint32_t m = 0; m < pack_.materials.size(); ++m)
+    if (pack_.materials[m].unlit) white = std::max(white, max_component(brightest_emission(m)));
+  return white > 0 ? white : 1;
 }
 
 const gpu::Texture2d& GpuScene::albedo(std::int32_t index) const {

@@ -143,8 +143,10 @@ class GpuScene {
     glBindVertexArray(vertex_array_.name());
     (shown_buffer_ ? *shown_buffer_ : index_buffer_).bind(GL_ELEMENT_ARRAY_BUFFER);
   }
-  // cd/m² where its picture is white, or of the whole material.
+  // cd/m² where its picture is white, or of the whole material; of an unlit one what shows its colour.
   Vec3 brightest_emission(std::uint32_t material) const;
+  // What white unlit surfaces show, cd/m²; 1 where none says it.
+  float unlit_white() const;
   // The picture that a material shines with; nothing where that is even.
   const EmissionTexture* emission_texture(std::uint32_t material) const;
   // White where index is -1.

@@ -18,10 +18,9 @@ bool same_view(const Camera& a, const Camera& b) {
 }
 
 // What is the same of frames that look the same.
-FrameOptions looks_of(const Session& session, bool white_matters) {
+FrameOptions looks_of(const Session& session) {
   FrameOptions out = session.frame;
   out.timed = false;
-  if (!white_matters) out.white = 0;
   return out;
 }
 
@@ -40,7 +39,7 @@ PacedFrame::PacedFrame(const gpu::Device& device) : pace_(is_software(device.ren
 Pace::Draw PacedFrame::choose(const Seen& seen) {
   begun_ = Clock::now();
   const Session& session = seen.session;
-  FrameOptions asked = looks_of(session, seen.white_matters);
+  FrameOptions asked = looks_of(session);
   const bool loaded = images_ != seen.images;
   const bool moved = !same_view(session.camera, camera_) || asked.poses != asked_.poses ||
                      asked.lamps != asked_.lamps || window_ != seen.window || (loaded && seen.loading);

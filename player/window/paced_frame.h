@@ -20,10 +20,9 @@ class PacedFrame {
   struct Seen {
     const Session& session;
     IVec2 window{0};
-    std::uint64_t images = 0;    // bytes of them that are there: what is loaded is shown
-    bool loading = false;        // more of them come
-    bool white_matters = false;  // frames depend on the exposure (needs_white)
-    bool whole = false;          // no coarser frame will do: two are shown beside each other
+    std::uint64_t images = 0;  // bytes of them that are there: what is loaded is shown
+    bool loading = false;      // more of them come
+    bool whole = false;        // no coarser frame will do: two are shown beside each other
   };
   // What becomes of the next frame.
   Pace::Draw choose(const Seen& seen);

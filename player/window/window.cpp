@@ -152,7 +152,6 @@ class Loop {
 
   Status draw(int width, int height, float dt_s) {
     session_.frame.timed = numbers_are_due();  // only that one: timing waits for the device
-    session_.frame.white = white_of_exposure(session_.shown_ev100);
     ORIEL_TRY(session_.frame.poses,
               poses_at(scene_->pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
     ORIEL_TRY(session_.frame.lamps, lamps_at(scene_->pack(), session_.moves));
@@ -160,8 +159,7 @@ class Loop {
     load_images();
     if (scene_->has_live_news()) paced_.redraw();
     const IVec2 window(width, height);
-    drawn_ = paced_.choose({session_, window, scene_->images().state().used, meter_.loading.busy, needs_white(*scene_),
-                            beside_.has_value()});
+    drawn_ = paced_.choose({session_, window, scene_->images().state().used, meter_.loading.busy, beside_.has_value()});
     if (drawn_ != Pace::Draw::kKeep) {
       const View view = view_of(paced_.size().x, paced_.size().y);
       ORIEL_TRY(meter_.stats, renderer_.render(*scene_, view, paced_.options()));

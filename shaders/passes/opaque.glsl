@@ -14,7 +14,7 @@ const int u_alpha_kind = 0;
 uniform int u_alpha_kind;  // of o_light.a: 0 kind of light, 1 one over the distance from the eye, 2 over depth
 #endif
 uniform float u_diffuse_share;  // (1 - metallic) (1 - transmission)
-uniform vec3 u_emission;        // cd/m2, of white texels
+uniform vec3 u_emission;        // cd/m2, of white texels; of an unlit surface what shows its colour
 #ifndef PLAIN
 uniform sampler2D u_emission_texture;
 #endif
@@ -24,7 +24,7 @@ uniform vec3 u_weights;  // of the diffuse part, the undirected reflection, the 
 
 in vec2 v_uv;
 in vec4 v_color;
-layout(location = 0) out vec4 o_light;  // kind of light: 1 cd/m2, 2 a colour to be shown as it is
+layout(location = 0) out vec4 o_light;  // kind of light: 1 cd/m2, 2 that of an unlit surface
 
 float alpha_of_light(float kind) {
   if (u_alpha_kind == 0) return kind;
@@ -37,7 +37,7 @@ void main() {
   vec4 base = u_base_color * v_color * texture(u_base_texture, v_uv);
   if (u_alpha_cutoff >= 0.0 && base.a < u_alpha_cutoff) discard;
   if (u_unlit) {
-    o_light = vec4(base.rgb * u_weights.z, alpha_of_light(u_weights.z > 0.0 ? 2.0 : 1.0));
+    o_light = vec4(u_weights.z * u_emission * base.rgb, alpha_of_light(u_weights.z > 0.0 ? 2.0 : 1.0));
     return;
   }
   vec3 reflectance = reflectance_of(normal);

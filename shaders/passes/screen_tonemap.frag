@@ -11,11 +11,12 @@ const int u_samples = 1;
 #endif
 uniform ivec2 u_frame_size;
 uniform float u_exposure;  // 1 / (the luminance shown as white)
+uniform float u_unlit_exposure;  // of unlit surfaces
 uniform int u_curve;       // 0 none, 1 aces
 layout(location = 0) out vec4 o_color;
 
 vec3 shown(vec4 light) {
-  if (light.a > 1.5) return tonemap_none(light.rgb);
+  if (light.a > 1.5) return tonemap_none(light.rgb * u_unlit_exposure);  // colours that are to be shown as they are
   vec3 exposed = light.rgb * u_exposure;
   return u_curve == 1 ? tonemap_aces(exposed) : tonemap_none(exposed);
 }

@@ -10,7 +10,6 @@ uniform float u_transmission;
 uniform vec3 u_emission;
 uniform sampler2D u_emission_texture;
 uniform bool u_unlit;
-uniform float u_unlit_scale;  // cd/m2 of a white unlit surface
 uniform vec3 u_weights;
 uniform bool u_dimming;  // write what the surface lets through instead of its light
 
@@ -33,6 +32,6 @@ void main() {
   vec3 light = u_weights.x * diffuse_light(base.rgb * u_diffuse_share, reflectance, irradiance);
   light += u_weights.y * ambient_reflection(reflectance, irradiance);
   light += u_weights.z * u_emission * texture(u_emission_texture, v_uv).rgb;
-  if (u_unlit) light = u_weights.z * base.rgb * u_unlit_scale;
+  if (u_unlit) light = u_weights.z * u_emission * base.rgb;
   o_light = vec4(coverage * light, 0.0);
 }

@@ -88,6 +88,21 @@ TEST_F(Mirrors, FacingMirrorsShowEachOtherToTheLastOrder) {
   }
 }
 
+// Unlit surfaces are as bright as the pack says that their white is.
+TEST_F(Mirrors, ShowUnlitSurfacesAsBrightAsThePackSays) {
+  Pack pack = empty_pack();
+  pack.materials[1].unlit = true;
+  pack.materials[1].emission = Vec3(400);
+  pack.materials[1].base_color = {0.25f, 0.5f, 1};
+  add_bare_mirror(pack, {-2, 0, 0}, {4, 0, 0}, {0, 4, 0});
+  add_quad(pack, {0.5f, 1, 2}, {-1, 0, 0}, {0, 1, 0}, 1, -1);  // to -z
+  const auto at = [&](const Vec3& eye, const Vec3& target) {
+    return draw(pack, look_at(eye, target, 0.05f), 33, 33).at(16, 16);
+  };
+  EXPECT_LT(glm::length(at({0, 1.5f, 5}, {0, 1.5f, -2}) - 200.0f * Vec3(0.25f, 0.5f, 1)), 1e-2f) << "in the mirror";
+  EXPECT_LT(glm::length(at({0, 1.5f, 1}, {0, 1.5f, 2}) - 400.0f * Vec3(0.25f, 0.5f, 1)), 1e-2f) << "straight on";
+}
+
 // A wall mirror stands over a polished floor; what hangs before it is seen by way of both, each way round.
 TEST_F(Mirrors, AMirrorOverAPolishedFloor) {
   Pack pack = empty_pack();

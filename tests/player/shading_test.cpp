@@ -159,6 +159,27 @@ TEST_F(Shading, UnlitSurfacesShowTheirColourAtAnyExposure) {
   EXPECT_FALSE(metered->has_value()) << "nothing but unlit pixels";
 }
 
+// A pane that shines half as bright as the unlit white behind it, over a half of it.
+TEST_F(Shading, LightOfPanesIsAddedToUnlitSurfacesByTheirWhite) {
+  Pack pack = lit_quad(Vec3(256));
+  pack.materials[0].unlit = true;
+  pack.materials[0].emission = Vec3(400);
+  pack.mesh.parts[0].lightmap_page = -1;
+  pack.materials.resize(2);
+  pack.materials[1].base_color = Vec3(0);
+  pack.materials[1].alpha = 0.5f;
+  pack.materials[1].alpha_mode = AlphaMode::kBlend;
+  pack.materials[1].emission = {0, 200, 0};
+  add_quad(pack, {-1, -1, 0.1f}, {2, 0, 0}, {0, 2, 0}, 1, -1);
+  const Vec3 light = draw(pack, facing_camera(), 4, 4).at(1, 1);
+  EXPECT_LT(glm::length(light - Vec3(0.25f * 400, 0.125f * 400 + 100, 0.5f * 400)), 0.1f);
+  const auto pixels = renderer_->read_display(3, ToneCurve::kAces);
+  ASSERT_TRUE(pixels);
+  EXPECT_NEAR((*pixels)[0], 137, 1);  // sRGB of 0.25
+  EXPECT_NEAR((*pixels)[1], 165, 1);  // of 0.375
+  EXPECT_NEAR((*pixels)[2], 188, 1);
+}
+
 TEST_F(Shading, ExposureIsTheMetersAndTheUsers) {
   draw(lit_quad(Vec3(256)), facing_camera(), 50, 20);
   const float y = luminance(Vec3(128, 64, 256) / kPi);

@@ -6,6 +6,7 @@ uniform sampler2D u_frame;
 uniform sampler2D u_before;  // the sum of those before
 uniform float u_before_weight;
 uniform float u_exposure;    // 1 / (the luminance shown as white)
+uniform float u_unlit_exposure;  // of unlit surfaces
 uniform bool u_encode;       // the mean, sRGB-encoded
 uniform float u_count;
 uniform float u_share;       // above 0: that much of the light itself, for the meter
@@ -24,5 +25,5 @@ void main() {
     o_color = light * u_share;
     return;
   }
-  o_color = vec4(sum + (light.a > 1.5 ? tonemap_none(light.rgb) : tonemap_aces(light.rgb * u_exposure)), 1.0);
+  o_color = vec4(sum + (light.a > 1.5 ? tonemap_none(light.rgb * u_unlit_exposure) : tonemap_aces(light.rgb * u_exposure)), 1.0);
 }

@@ -136,7 +136,6 @@ export class Renderer {
     const m = view.viewFromPack;
     program.set('u_depth_row', [-m[2]!, -m[6]!, -m[10]!, -m[14]!]);
     program.set('u_closest', this.device.closest);
-    program.set('u_unlit_scale', 1);
     scene.bindGeometry();
   }
 
@@ -186,7 +185,6 @@ export class Renderer {
     const sorted = scene.transparent.filter((r) => v.mayBeVisible(view.clipFromPack, r.bounds)).sort((a, b) => depth(a) - depth(b));
     if (sorted.length === 0) return;
     this.setFrame(this.transparent, scene, view, false);
-    this.transparent.set('u_unlit_scale', this.white * scene.unit);
     for (const range of sorted) {
       scene.setSurface(this.transparent, range);
       const state: RasterState = { depthTest: true, alpha: false, mirrored: view.mirrored, stencilRead: seeThroughBit, cull: !scene.data.materials[range.material]!.doubleSided };
@@ -228,6 +226,7 @@ export class Renderer {
     apply(gl, {});
     this.average.use();
     this.average.set('u_exposure', 1 / (this.white * scene.unit));
+    this.average.set('u_unlit_exposure', 1 / (scene.unlitWhite * scene.unit));
     this.average.set('u_count', count + 1);
     bind(gl, 'u_frame', frame.light);
     bind(gl, 'u_before', a.texture);

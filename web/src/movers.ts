@@ -138,7 +138,6 @@ export class Movers {
     this.light.set('u_alpha_kind', distance ? (view.ortho ? 2 : 1) : 0);
     this.light.set('u_depth_row', [-m[2]!, -m[6]!, -m[10]!, -m[14]!]);
     this.light.set('u_closest', this.device.closest);
-    this.light.set('u_unlit_scale', 1);
     this.light.set('u_changed', false);
     this.light.set('u_weights', [1, 1, 1]);
     this.each(view, this.light, (range, mover) => {

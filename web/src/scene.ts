@@ -55,7 +55,8 @@ export class GpuScene {
   private readonly shown: Page[] = [];        // as lamps shine now
   private readonly pageGroups: PageGroups[] = [];
   factors: Vec3[];               // by light group
-  private emission: number[][];               // by material
+  private emission: number[][];               // by material; of unlit ones what shows their colour, cd/m2
+  readonly unlitWhite: number;
   sky: number[];
   private readonly white: WebGLTexture;
   private readonly flat: WebGLTexture;
@@ -65,7 +66,8 @@ export class GpuScene {
 
   constructor(readonly device: Device, readonly data: Sections) {
     const gl = device.gl, mesh = data.mesh!, brightest = Math.max(1, ...data.materials.flatMap((m) => m.emission), ...data.sky);
-    this.emission = data.materials.map((m) => m.emission), this.sky = data.sky;
+    this.emission = data.materials.map((m) => m.unlit && !m.emission.some((c) => c > 0) ? [1, 1, 1] : m.emission), this.sky = data.sky;
+    this.unlitWhite = Math.max(...this.emission.filter((_, m) => data.materials[m]!.unlit).flat(), 0) || 1;
     this.factors = data.groups.map(() => [1, 1, 1]);
     this.unit = device.color === gl.RGBA32F ? 1 : Math.min(1, 8192 / brightest);
     const indices = this.sortRanges();

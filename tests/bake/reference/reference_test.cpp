@@ -62,6 +62,43 @@ TEST(Reference, AnEyeInGlassSeesThroughIt) {
   expect_color(frame.total, 2.25f * Vec3(1, 1, (1 - r) * once / (1 - r * once * once)), 0.005, "total");
 }
 
+// Straight on, behind a pane and in a mirror: their colour times the white of a frame whose lit part, of 2 cd/m², is
+// middle grey. What is lit does not see them.
+TEST(Reference, UnlitSurfacesAreAsBrightAsTheFramesWhite) {
+  const Vec3 picture(0.25f, 0.5f, 1);
+  SceneMaterial unlit, mirror, pane;
+  unlit.unlit = true;
+  unlit.base_color = picture;
+  mirror.metallic = 1;
+  mirror.roughness = 0;
+  mirror.double_sided = pane.double_sided = true;
+  pane.transmission = 1;
+  pane.specular = 0;
+  pane.roughness = 0;
+  test::SceneParts parts;
+  parts.box("room", parts.diffuse(Vec3(0.5f), Vec3(1)), Vec3(-1), Vec3(1), true);
+  const auto paper = parts.add(unlit);
+  parts.quad("straight on", paper, {-0.9f, -0.9f, -0.9f}, {0.4f, 0, 0}, {0, 1.8f, 0});
+  parts.quad("behind a pane", paper, {-0.5f, -0.9f, -0.9f}, {0.4f, 0, 0}, {0, 1.8f, 0});
+  parts.quad("pane", parts.add(pane), {-0.5f, -0.9f, -0.85f}, {0.4f, 0, 0}, {0, 1.8f, 0});
+  parts.quad("behind the eye", paper, {0.95f, -0.95f, 0.95f}, {-1.9f, 0, 0}, {0, 1.9f, 0});
+  parts.quad("mirror", parts.add(mirror), {-0.1f, -0.9f, -0.9f}, {0.4f, 0, 0}, {0, 1.8f, 0});
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  const LightSet lights(scene);
+  Context context;
+  const auto frame = render_reference({accel, lights, {}}, {.name = "", .eye = {0, 0, 0.7f}, .forward = {0, 0, -1}},
+                                      {.width = 32, .height = 9, .samples = 256}, context);
+  ASSERT_TRUE(frame);
+  const auto at = [&](std::size_t x) { return &frame->total.pixels[(std::size_t{4} * 32 + x) * 3]; };
+  const auto column = [](float x, float z) {  // of a point at the eye's height
+    return static_cast<std::size_t>(16 + 16 * x / (0.7f - z) / (std::tan(0.5f * Camera{}.vertical_fov_rad) * 32 / 9));
+  };
+  for (const std::size_t x : {column(-0.7f, -0.9f), column(-0.3f, -0.9f), column(0.1f, -0.9f)})
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(x)[c], picture[c] * 2 / 0.18f, 0.02f * 2 / 0.18f) << x << " " << c;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(column(0.65f, -1))[c], 2, 0.05f) << c;
+}
+
 TEST(Reference, PartsAddUp) {
   const ReferenceFrame frame = render(lamp(), {.width = 16, .height = 9, .samples = 16});
   for (std::size_t i = 0; i < frame.total.pixels.size(); ++i)

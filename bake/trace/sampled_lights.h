@@ -1,0 +1,85 @@
+// Light that a path's surface gets from lamps that are sampled. Of the path tracer (path.cpp).
+#pragma once
+
+#include "bake/trace/path.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+
+// What a path is traced with.
+struct Tracing {
+  const Transport& transport;
+  Sampler& sampler;
+  std::uint64_t& rays;
+};
+
+inline float balance(float pdf, float other) {
+  return pdf / (pdf + other);
+}
+
+// Incident light from one sampled emitter, times f·cosθ as `reflect(wi)` gives it; `pdf_of(wi)` is the density with
+// which the other strategy would have chosen that direction.
+struct FromEmitter {
+  Vec3 light{0};
+  bool near = false;        // LightSample::near
+  std::uint32_t group = 0;  // LightSample::group
+  Vec3 direction{0, 0, 1};  // LightSample::direction
+};
+template <class Reflect, class Pdf>
+FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const Reflect& reflect, const Pdf& pdf_of) {
+  const Transport& t = by.transport;
+  Sampler& sampler = by.sampler;
+  std::uint64_t& rays = by.rays;
+  const float u = sampler.next1();
+  const Vec2 v = sampler.next2();
+  if (t.lights.empty()) return {};
+  // Sampled from where the shadow ray starts: close to a lamp over a large floor the offset is not small.
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  const LightSample light = t.lights.sample(origin, u, v);
+  if (max_component(light.estimate) <= 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return {};
+  Vec3 value = light.estimate * reflect(light.direction);
+  if (max_component(value) <= 0) return {};
+  if (light.pdf > 0) value *= balance(light.pdf, pdf_of(light.direction));
+  if (!is_usable(value)) {
+    t.accel.dropped().add(surface.triangle);
+    return {};
+  }
+  if (!(light.distance > 0)) return {value, light.near, light.group, light.direction};  // touching
+  ++rays;
+  const Ray ray{origin, light.direction, light.distance, light.pdf == 0};
+  return {value * t.accel.transmittance(ray), light.near, light.group, light.direction};
+}
+
+inline void book(const Transport& t, LightBook::Kind kind, std::uint32_t group, const Vec3& direction,
+                 const Vec3& light) {
+  if (!t.book) return;
+  each_owner(t.accel.scene(), group, direction, light,
+             [&](std::uint32_t owner, const Vec3& part) { t.book->add(kind, owner, part); });
+}
+
+// The same of lights in mirrors, which no other strategy finds, by way of so many at most. add(direction, group,
+// light).
+template <class Reflect, class Add>
+void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mirrors, const Reflect& reflect,
+                     const Add& add) {
+  const Transport& t = by.transport;
+  Sampler& sampler = by.sampler;
+  std::uint64_t& rays = by.rays;
+  const VirtualLights& mirrored = t.lights.mirrored();
+  if (mirrored.empty()) return;
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  const float u = sampler.next1();
+  const Vec2 v = sampler.next2();
+  mirrored.choose(u, [&](std::size_t i, float weight) {
+    if (mirrored[i].order > most_mirrors || !mirrored[i].may_reach(DVec3(origin), 0)) return;
+    const MirroredSample light = mirrored.sample(i, t.lights, origin, v);
+    if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;
+    Vec3 value = weight * light.endless * light.share * reflect(light.direction);
+    if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
+    if (!is_usable(value) || max_component(value) <= 0) return;
+    value *= t.accel.transmittance_of_all(light.rays(), rays);
+    if (max_component(value) > 0) add(light.direction, light.group, value);
+  });
+}
+
+}  // namespace oriel
