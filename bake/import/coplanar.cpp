@@ -154,7 +154,7 @@ void separate_layers(Scene& scene, Context& context) {
   const double radius = scene.radius(), one_place = kOnePlace * radius;
   const double lift = std::max(std::min(kLift * radius, kMostLift), kLeastLift * radius);
   Lifter lifter(scene);
-  PlanePatches plane(scene, one_place);
+  PlanePatches plane(scene, one_place, lift);
   std::set<std::vector<std::uint32_t>> done;    // patches
   std::map<std::uint32_t, std::uint32_t> told;  // a surface that was moved, and one that it lay on
   for (const bool shifted : {false, true}) {

@@ -8,7 +8,8 @@ namespace oriel {
 
 // Of surfaces that lie in one place with their fronts to one side, what rays meet and what a frame shows is a matter of
 // rounding. A *patch* is the part of a surface that lies in one plane and hangs together. Of patches that overlap,
-// those that let light through lie on top, then the smaller, then the later: carpets on floors, lamps on ceilings. What
+// the smaller lies on top, of copies that which lets light through, then the later: carpets on floors, lamps on
+// ceilings. What lies so little before one that it would be overtaken is moved on too. What
 // lies on top is moved to its front, and its neighbours in its object with it, so that nothing opens: by a ten
 // thousandth of the scene's radius, at most a millimetre, but never less than rays tell apart (1e-5 of the radius), for
 // each layer below it, at most eight.

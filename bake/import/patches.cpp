@@ -133,14 +133,21 @@ bool PlanePatches::overlap(const Flat& a, const Flat& b) {
   return shared_area(a.corners, b.corners) >= kOverlap * std::min(a.area, b.area);
 }
 
-// Whether the smaller of both lies in the plane of the other.
-bool PlanePatches::in_one_place(std::uint32_t i, std::uint32_t k) const {
-  const std::uint32_t large = flat_[i].area >= flat_[k].area ? i : k, small = i + k - large;
+// How far k lies before i, m, if they are parallel and no further apart than a layer is moved: by the corners of the
+// smaller one.
+std::optional<double> PlanePatches::rise(std::uint32_t i, std::uint32_t k) const {
+  const bool first_is_large = flat_[i].area >= flat_[k].area;
+  const std::uint32_t large = first_is_large ? i : k, small = i + k - large;
   const std::uint32_t t = triangles_[large].triangle, other = triangles_[small].triangle;
   const DVec3 n(geometric_normal(scene_, t)), from(scene_.positions[scene_.triangles[t].x]);
-  for (int c = 0; c < 3; ++c)
-    if (std::abs(glm::dot(n, DVec3(scene_.positions[scene_.triangles[other][c]]) - from)) > one_place_) return false;
-  return true;
+  double least = lift_, most = -lift_;
+  for (int c = 0; c < 3; ++c) {
+    const double d = glm::dot(n, DVec3(scene_.positions[scene_.triangles[other][c]]) - from);
+    least = std::min(least, d), most = std::max(most, d);
+  }
+  if (most >= lift_ || least <= -lift_ || most - least > 2 * one_place_) return std::nullopt;
+  const double mean = 0.5 * (least + most);
+  return first_is_large ? mean : -mean;
 }
 
 void PlanePatches::find_overlaps() {
@@ -159,28 +166,51 @@ void PlanePatches::find_overlaps() {
 void PlanePatches::compare(std::uint32_t i, std::uint32_t k) {
   const Flat &a = flat_[i], &b = flat_[k];
   if (a.patch == b.patch || patches_[a.patch].overlaps.contains(b.patch)) return;
-  if (surface(i).mover != surface(k).mover || !overlap(a, b) || !in_one_place(i, k)) return;
+  if (surface(i).mover != surface(k).mover || !overlap(a, b)) return;
+  const std::optional<double> d = rise(i, k);
+  if (!d) return;
+  if (*d > one_place_) patches_[b.patch].behind.try_emplace(a.patch, *d);
+  if (*d < -one_place_) patches_[a.patch].behind.try_emplace(b.patch, -*d);
+  if (std::abs(*d) > one_place_) return;
   patches_[a.patch].overlaps.insert(b.patch);
   patches_[b.patch].overlaps.insert(a.patch);
 }
 
+// By patch how many layers lie below it, none or a patch of which is told too: those of its place that are before it in
+// the order, and what would be moved to it or past it.
+std::vector<int> PlanePatches::levels(std::span<const std::uint32_t> order, std::vector<std::uint32_t>& below) const {
+  std::vector<std::uint32_t> rank(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
+  std::vector<int> level(order.size(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const std::uint32_t p : order) {
+      const auto lies_on = [&](std::uint32_t other, double at_least) {
+        const int needed = std::min(static_cast<int>(std::ceil(at_least)), kMostLayers);
+        if (needed > level[p]) level[p] = needed, below[p] = other, changed = true;
+      };
+      for (const std::uint32_t other : patches_[p].overlaps)
+        if (rank[other] < rank[p]) lies_on(other, level[other] + 1);
+      for (const auto& [other, distance] : patches_[p].behind)
+        if (level[other] > 0) lies_on(other, level[other] + 1 - distance / lift_);
+    }
+  }
+  return level;
+}
+
 std::vector<Layer> PlanePatches::stack() {
-  std::vector<std::uint32_t> order(patches_.size());
+  constexpr double kThrough = 0.9;  // of copies that one lies on top which lets light through
+  std::vector<std::uint32_t> order(patches_.size()), below(patches_.size(), ~0u);
   for (std::uint32_t p = 0; p < order.size(); ++p) order[p] = p;
   std::ranges::stable_sort(order, {}, [&](std::uint32_t p) {
-    return std::pair(patches_[p].lets_through, -static_cast<float>(patches_[p].area));
+    return -static_cast<float>(patches_[p].area * (patches_[p].lets_through ? kThrough : 1));
   });
-  std::vector<int> level(patches_.size(), -1);
+  const std::vector<int> level = levels(order, below);
   std::vector<Layer> layers;
   for (const std::uint32_t p : order) {
-    Layer layer{.triangles = {}, .patch = p};
-    for (const std::uint32_t other : patches_[p].overlaps) {
-      if (level[other] < layer.level) continue;
-      layer.level = level[other] + 1;
-      layer.below = scene_.triangle_surface[triangles_[patches_[other].members.front()].triangle];
-    }
-    level[p] = layer.level = std::min(layer.level, kMostLayers);
-    if (layer.level == 0 && !patches_[p].lets_through) continue;
+    if (level[p] == 0 && !patches_[p].lets_through) continue;
+    Layer layer{.triangles = {}, .patch = p, .level = level[p]};
+    if (below[p] != ~0u) layer.below = scene_.triangle_surface[triangles_[patches_[below[p]].members.front()].triangle];
     for (const std::uint32_t i : patches_[p].members) layer.triangles.push_back(triangles_[i].triangle);
     layers.push_back(std::move(layer));
   }

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstring>
+#include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <tuple>
@@ -47,9 +49,10 @@ struct Layer {
 bool lets_through(const SceneMaterial& material);
 
 // What lies in one plane. one_place: of what is no further apart than that, metres, rays cannot tell which is in front.
+// lift: by which each layer is moved; what lies less in front of one gives way.
 class PlanePatches {
  public:
-  PlanePatches(const Scene& scene, double one_place) : scene_(scene), one_place_(one_place) {}
+  PlanePatches(const Scene& scene, double one_place, double lift) : scene_(scene), one_place_(one_place), lift_(lift) {}
 
   // The patches of these triangles that lie on others or let light through. They are of one cell, in the order of the
   // scene.
@@ -65,7 +68,8 @@ class PlanePatches {
     std::vector<std::uint32_t> members;  // into triangles_
     double area = 0;
     bool lets_through = false;
-    std::set<std::uint32_t> overlaps;  // patches
+    std::set<std::uint32_t> overlaps;        // patches in its place
+    std::map<std::uint32_t, double> behind;  // patches less than a lift behind it, and how far, m
   };
   struct Flat {
     std::array<DVec2, 3> corners;  // counter-clockwise, along the two axes that the plane faces least
@@ -82,13 +86,14 @@ class PlanePatches {
   void project();
   Flat flattened(std::uint32_t triangle) const;
   static bool overlap(const Flat& a, const Flat& b);
-  bool in_one_place(std::uint32_t i, std::uint32_t k) const;
+  std::optional<double> rise(std::uint32_t i, std::uint32_t k) const;
   void find_overlaps();
   void compare(std::uint32_t i, std::uint32_t k);
+  std::vector<int> levels(std::span<const std::uint32_t> order, std::vector<std::uint32_t>& below) const;
   std::vector<Layer> stack();
 
   const Scene& scene_;
-  double one_place_;
+  double one_place_, lift_;
   int drop_ = 0;                   // the axis that the plane faces most
   std::vector<Planar> triangles_;  // in the order of the scene
   std::vector<std::uint32_t> patch_of_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "formats/assets/light_field.h"
+
 namespace oriel {
 namespace {
 
@@ -9,14 +11,15 @@ namespace {
 float spot_falloff(const Light& light, const Vec3& direction) {
   const float cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
   const float cosine = glm::dot(light.direction, direction);
-  const float t = std::clamp((cosine - cos_outer) / std::max(1e-3f, cos_inner - cos_outer), 0.0f, 1.0f);
+  const float t = std::clamp((cosine - cos_outer) / std::max(kSharpestCone, cos_inner - cos_outer), 0.0f, 1.0f);
   return t * t;
 }
 
 // ∫ t² over all directions of that falloff.
 double falloff_integral(const Light& light) {
   const double ci = std::cos(light.inner_cone_rad), co = std::cos(light.outer_cone_rad);
-  const double width = std::max(1e-3, ci - co), t = std::min(1.0, (1 - co) / width);  // t reached on the axis
+  const double width = std::max(double{kSharpestCone}, ci - co),
+               t = std::min(1.0, (1 - co) / width);  // t reached on the axis
   return 2 * kPiD * (width * t * t * t / 3 + std::max(0.0, 1 - co - width));
 }
 

@@ -15,6 +15,7 @@ constexpr double kFew = 0.02;                      // of the points of one kind,
 constexpr double kRooms = 0.05;                    // of them in rooms of any height, for these to tell
 constexpr double kWidest = 20;                     // a room is no wider than that many of its heights
 constexpr double kUsualFrom = 1.2, kUsualTo = 40;  // medians that are odd, but may be metres
+constexpr double kNobodys = 1000;                  // m: no room is that high
 
 // Points are drawn in three ways, for no single one is fair to all scenes: evenly over surfaces (a room of a hundred
 // surfaces beside a ground plane of one), over triangles, and over square metres.
@@ -30,8 +31,9 @@ class Probe {
   struct Found {
     double height = 0;  // between floor and ceiling; 0: the point is neither
     Vec3 floor{0};
-    bool room = false;  // with walls
-    bool open = false;  // a floor with nothing overhead, between walls as high as those of rooms for people
+    bool room = false;   // with walls
+    bool faces = false;  // floor and ceiling show each other their fronts: it is no body from within, as a board is
+    bool open = false;   // a floor with nothing overhead, between walls as high as those of rooms for people
   };
 
   // What the k-th point of a kind belongs to, where it faces up or down.
@@ -50,7 +52,8 @@ class Probe {
       return {.floor = start, .open = towards > 0 && walls_reach(kLow) && !walls_reach(kHigh)};
     }
     const Vec3 end = start + other.distance * way, middle = 0.5f * (start + end);
-    return {other.distance, towards > 0 ? start : end, between_walls(middle, other.distance)};
+    const bool faces = other.front || scene_.material_of(other.triangle).double_sided;
+    return {other.distance, towards > 0 ? start : end, between_walls(middle, other.distance), faces};
   }
 
  private:
@@ -121,21 +124,21 @@ std::optional<double> typical_room_height(const Accel& accel) {
 
 std::optional<UnitGuess> guess_unit(const Accel& accel) {
   const Probe probe(accel);
-  std::vector<double> heights;  // of rooms
-  bool rooms = false;
+  std::vector<double> heights;       // of rooms
+  bool rooms = false, fits = false;  // fits: some rooms are for people, if these are metres
   for (const Kind kind : {kBySurface, kByTriangle, kByArea}) {
     std::uint32_t people = 0, here = 0;
     for (std::uint32_t k = 0; k < kPoints; ++k) {
       const Probe::Found found = probe.find(kind, k);
-      people += fits_people(found.height) || found.open;
+      people += (fits_people(found.height) && found.faces) || found.open;
       if (found.room) heights.push_back(found.height), ++here;
     }
-    if (people >= kFew * kPoints) return std::nullopt;
+    fits = fits || people >= kFew * kPoints;
     rooms = rooms || here >= kRooms * kPoints;
   }
   if (!rooms) return std::nullopt;
   const double height = typical_height(std::move(heights));
-  if (height >= kUsualFrom && height <= kUsualTo) return std::nullopt;
+  if ((height >= kUsualFrom && height <= kUsualTo) || (fits && height < kNobodys)) return std::nullopt;
   const double power = std::ceil(std::log10(kLow / height));
   if (power == 0) return std::nullopt;
   return UnitGuess{std::pow(10.0, power), height};

@@ -13,10 +13,11 @@ struct UnitGuess {
   double room_height = 0;  // typical height of its rooms, in units: the median, weighted by its square
 };
 
-// Looks for places that a person fits into: floors with something 1.9 to 30 m overhead, ceilings over one, and floors
-// between walls as high as that with nothing overhead, for modellers leave ceilings out to look in. Where there are
-// hardly any, but rooms all the same (something overhead, and walls on three of four sides), the unit is the power of
-// ten that makes them 2.7 m high at the median. Nothing where the numbers can be metres or no room tells. The same
+// Looks for places that a person fits into: floors with something 1.9 to 30 m overhead that shows its front (boards
+// from within do not), ceilings over one, and floors between walls as high as that with nothing overhead, for modellers
+// leave ceilings out to look in. Where there are hardly any, but rooms all the same (something overhead, and walls on
+// three of four sides), or these are a kilometre high, the unit is the power of ten that makes them 2.7 m high at the
+// median. Nothing where the numbers can be metres or no room tells. The same
 // rooms in any unit give the same rooms.
 std::optional<UnitGuess> guess_unit(const Accel& accel);
 

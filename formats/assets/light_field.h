@@ -10,6 +10,10 @@
 
 namespace oriel {
 
+// The least difference of the cosines of a spot's inner and outer angle: as fine as floats have them near 1. Cones of a
+// hundredth of a radian differ by 1e-4.
+inline constexpr float kSharpestCone = 1e-6f;
+
 inline constexpr std::size_t kMaxBrightLights = 64;  // of a field: sets of them are bits of 64
 inline constexpr int kMaxFieldLevels = 2;            // of refinement
 inline constexpr std::uint32_t kMaxDepthSide = 64;

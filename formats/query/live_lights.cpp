@@ -56,7 +56,7 @@ Vec2 in_triangle(const Vec2& u) {
 float spot_factor(float cosine, float cos_inner, float cos_outer) {
   if (cosine >= cos_inner) return 1;
   if (cosine <= cos_outer) return 0;
-  const float share = (cosine - cos_outer) / std::max(cos_inner - cos_outer, 1e-6f);
+  const float share = (cosine - cos_outer) / std::max(cos_inner - cos_outer, kSharpestCone);
   return share * share;
 }
 

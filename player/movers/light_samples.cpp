@@ -75,7 +75,7 @@ LightSamples sample_light(const BrightLight& light, int points, std::uint32_t lo
     out.at.emplace_back(light.position, 1);
     if (light.kind == BrightLightKind::kSpot) {
       const float outer = std::cos(light.outer_cone_rad);
-      out.cones = {outer + std::max(1e-3f, std::cos(light.inner_cone_rad) - outer), outer};
+      out.cones = {outer + std::max(kSharpestCone, std::cos(light.inner_cone_rad) - outer), outer};
     }
   }
   for (const Vec4& at : out.at) out.center += Vec3(at) / static_cast<float>(out.at.size());

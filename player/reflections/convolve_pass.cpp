@@ -113,6 +113,9 @@ void set_convolution(const gpu::Program& program, const FrameContext& context, c
   program.set("u_taps", 2);
   program.set("u_tap_count", image.kernel.count);
   program.set("u_tap_rows", image.kernel.rows);
+  const Reflector& reflector = context.scene.pack().reflectors[image.reflector.index];
+  program.set("u_reflector_from_view", glm::inverse(context.view.view_from_pack * reflector.pack_from_reflector));
+  program.set("u_reflector_bounds", Vec4(reflector.lower, reflector.upper));
 }
 
 void ConvolvePass::draw_even(const FrameContext& context, const ReflectedImage& image) const {

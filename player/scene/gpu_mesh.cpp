@@ -1,6 +1,7 @@
 #include "player/scene/gpu_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 #include <utility>
 
@@ -57,6 +58,17 @@ std::vector<DrawRange> sorted_ranges(const Mesh& mesh, std::vector<std::uint32_t
     }
   }
   return ranges;
+}
+
+bool faces_inward(const Mesh& mesh, std::span<const std::uint32_t> indices, const DrawRange& range) {
+  const DVec3 middle(range.bounds.center());
+  double volume = 0;
+  for (std::uint32_t i = 0; i < range.index_count; i += 3) {
+    std::array<DVec3, 3> p;
+    for (std::uint32_t k = 0; k < 3; ++k) p[k] = DVec3(mesh.positions[indices[range.first_index + i + k]]) - middle;
+    volume += glm::dot(p[0], glm::cross(p[1], p[2]));
+  }
+  return volume < 0;
 }
 
 std::vector<DrawBatch> visible_batches(std::span<const DrawRange> ranges, const Frustum& frustum,

@@ -27,6 +27,9 @@ std::vector<DrawRange> sorted_ranges(
     const Mesh& mesh, std::vector<std::uint32_t>& indices, std::span<const TriangleRun> runs = {},
     const std::function<bool(std::uint32_t material)>& divided = [](std::uint32_t) { return true; });
 
+// Whether the range is more the inside of a shell than its outside: its triangles face their middle.
+bool faces_inward(const Mesh& mesh, std::span<const std::uint32_t> indices, const DrawRange& range);
+
 // Ranges of one material and page, for one call.
 struct DrawBatch {
   std::uint32_t material = 0;

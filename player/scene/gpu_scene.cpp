@@ -104,6 +104,8 @@ void GpuScene::upload_geometry() {
     bounds_.extend(range.bounds);
     (is_transparent(range.material) ? transparent_ : opaque_).push_back(range);
   }
+  // Of both sides of a shell, which are as far away, the inside is drawn first: from outside it lies behind.
+  std::ranges::stable_partition(transparent_, [&](const DrawRange& r) { return faces_inward(mesh, indices, r); });
   glass_ = take_glass_bodies(pack_, indices, transparent_);
   make_reflectors(indices, known && !pack_.reflected_sets.empty() &&
                                pack_.reflected_sets.made_for == reflected_hash(pack_.visible_sets, pack_.reflectors));

@@ -86,7 +86,10 @@ void LampPass::draw(const LampPoint& point, const PreviewMesh& mesh, const SeenS
     profiled = light.profile >= 0;
     if (profiled) mesh.profile(point.light).bind(kProfile);
     program_.set("u_right", light.right);
-    if (light.type == LightType::kSpot) cone = Vec2(std::cos(light.outer_cone_rad), std::cos(light.inner_cone_rad));
+    if (light.type == LightType::kSpot) {
+      const float outer = std::cos(light.outer_cone_rad);
+      cone = Vec2(outer, outer + std::max(kSharpestCone, std::cos(light.inner_cone_rad) - outer));
+    }
   }
   program_.set("u_cone", cone);
   program_.set("u_profiled", profiled ? 1 : 0);

@@ -21,7 +21,7 @@ float intensity(vec3 direction) {
     return texture(u_profile, (at * (size - 1.0) + 0.5) / size).r;
   }
   if (u_cone.x < -1.0) return 1.0;
-  float t = clamp((along - u_cone.x) / max(1e-3, u_cone.y - u_cone.x), 0.0, 1.0);
+  float t = clamp((along - u_cone.x) / (u_cone.y - u_cone.x), 0.0, 1.0);
   return t * t;
 }
 

@@ -131,6 +131,25 @@ TEST_F(Shading, SeeThroughSurfacesDimAndAdd) {
   expect_light(draw(pack, facing_camera(), 4, 4).at(1, 1), 4.0f + 0.75f * Vec3(64, 32, 16));
 }
 
+// A shade whose sides are parts of their own, as far away: before its far inside lies its near outside.
+TEST_F(Shading, TheInsideOfAShellLiesBehindItsOutside) {
+  Pack pack;
+  pack.sky = {64, 64, 64};
+  pack.materials.resize(2);
+  for (Material& m : pack.materials) m.alpha_mode = AlphaMode::kBlend, m.alpha = 0.25f;
+  pack.materials[0].emission = Vec3(16);
+  pack.materials[1].emission = Vec3(80);
+  const auto add_side = [&](std::uint32_t material, float outward) {
+    add_quad(pack, {-4 * outward, -4, 1}, {8 * outward, 0, 0}, {0, 8, 0}, material, -1);
+    add_quad(pack, {4 * outward, -4, -1}, {-8 * outward, 0, 0}, {0, 8, 0}, material, -1);
+    pack.mesh.parts.pop_back();
+    pack.mesh.parts.back().index_count *= 2;
+  };
+  add_side(0, 1), add_side(1, -1);
+  const float inside = 0.25f * 80 + 0.75f * 64;
+  expect_light(draw(pack, facing_camera(3), 4, 4).at(1, 1), Vec3(0.25f * 16 + 0.75f * inside));
+}
+
 TEST_F(Shading, BackFacesAreOpenOrDark) {
   Pack pack = lit_quad(Vec3(256));
   pack.sky = {3, 4, 5};

@@ -122,6 +122,14 @@ export class GpuScene {
     return range;
   }
 
+  private facesInward(indices: number[], range: Range): boolean {
+    const p = this.data.mesh!.positions, middle = v.centre(range.bounds);
+    const at = (i: number): v.Vec3 => v.sub([p[3 * indices[i]!]!, p[3 * indices[i]! + 1]!, p[3 * indices[i]! + 2]!], middle);
+    let volume = 0;
+    for (let i = range.first; i < range.first + range.count; i += 3) volume += v.dot(at(i), v.cross(at(i + 1), at(i + 2)));
+    return volume < 0;
+  }
+
   private sortRanges(): number[] {
     const mesh = this.data.mesh!, indices: number[] = [];
     const parts = mesh.parts.filter((p) => p.count > 0).sort((a, b) => a.material - b.material || a.page - b.page);
@@ -131,6 +139,9 @@ export class GpuScene {
       v.extend(this.bounds, ...range.bounds.lower);
       v.extend(this.bounds, ...range.bounds.upper);
     }
+    // As in the player: of both sides of a shell the inside first.
+    const inward = new Map(this.transparent.map((r) => [r, this.facesInward(indices, r)]));
+    this.transparent.sort((a, b) => Number(inward.get(b)) - Number(inward.get(a)));
     return indices;
   }
 

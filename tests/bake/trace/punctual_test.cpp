@@ -97,6 +97,24 @@ TEST(Profile, SymmetriesUnfold) {
   EXPECT_EQ(profile_candela(p, 80, 100), 0);
 }
 
+// A pin spot of a degree shines on its axis as bright as it says, and nowhere beside.
+TEST(Punctual, NarrowSpotsKeepTheirIntensity) {
+  const Scene scene;
+  Light spot;
+  spot.type = LightType::kSpot;
+  spot.direction = {0, 0, 1};
+  spot.intensity = Vec3(7);
+  for (const float outer : {0.3f, 0.03f, 0.003f}) {
+    spot.inner_cone_rad = outer * 2 / 3, spot.outer_cone_rad = outer;
+    const auto at = [&](float angle) {
+      return punctual_intensity(scene, spot, Vec3(std::sin(angle), 0, std::cos(angle))).g;
+    };
+    EXPECT_FLOAT_EQ(at(0), 7) << outer;
+    EXPECT_FLOAT_EQ(at(0.6f * outer), 7) << outer;
+    EXPECT_EQ(at(1.1f * outer), 0) << outer;
+  }
+}
+
 // Power is the integral of intensity, whatever the light.
 TEST(Punctual, PowerIsTheIntegralOfIntensity) {
   Scene scene;

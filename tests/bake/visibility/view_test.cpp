@@ -84,6 +84,25 @@ TEST(SceneUnit, IsToldByRooms) {
   }
 }
 
+// Desks in millimetres: from a leg's end the inside of a board of 25 mm is as high as a room of 25 m.
+TEST(SceneUnit, BoardsAreNoRooms) {
+  for (const float unit : {1000.0f, 100.0f}) {
+    SceneParts parts;
+    const std::uint32_t m = parts.diffuse(Vec3(0.5f));
+    parts.box("office", m, Vec3(0), unit * Vec3(20, 2.7f, 10), true);
+    for (int i = 0; i < 12; ++i) {
+      const Vec3 at(1.0f + 3.0f * static_cast<float>(i % 6), 0, i < 6 ? 2 : 7);
+      parts.box("top", m, unit * (at + Vec3(0, 0.7f, 0)), unit * (at + Vec3(1.6f, 0.725f, 0.8f)));
+      for (const float x : {0.0f, 1.55f})
+        for (const float z : {0.0f, 0.75f})
+          parts.box("leg", m, unit * (at + Vec3(x, 0, z)), unit * (at + Vec3(x + 0.05f, 0.7f, z + 0.05f)));
+    }
+    const auto guess = guess_unit(accel_of(parts.finish()));
+    ASSERT_TRUE(guess) << unit;
+    EXPECT_NEAR(guess->metres * unit, 1, 1e-9);
+  }
+}
+
 TEST(SceneUnit, MetresStay) {
   EXPECT_FALSE(guess_unit(accel_of(room(1))));
   EXPECT_FALSE(guess_unit(accel_of(room(1, true))));  // a wide plane around it tells nothing
