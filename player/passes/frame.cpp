@@ -137,6 +137,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
+  ORIEL_TRY_VOID(scene_pass_.prepare(scene, options));
   // Of what is shown as white, see-through unlit surfaces.
   const bool white_fits = !needs_white(scene) || (options.white > 0 && options.white < 4e4f);
   const bool halves = options.halves && white_fits && scene.fits_halves();
