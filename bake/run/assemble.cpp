@@ -167,4 +167,15 @@ void assemble_materials(const Scene& scene, const MaterialMaps& maps, Pack& pack
   }
 }
 
+void assemble_scene(const Scene& scene, MaterialMaps maps, AssembledMesh mesh, Pack& pack) {
+  assemble_materials(scene, maps, pack);
+  pack.mesh = std::move(mesh.mesh);
+  pack.kernels = std::move(maps.kernels);
+  pack.fresnel_maps = std::move(maps.fresnel_maps);
+  pack.split_reflectance = std::move(maps.split);
+  pack.cameras = scene.cameras;
+  pack.paths = scene.paths;
+  pack.sky = scene.sky;
+}
+
 }  // namespace oriel

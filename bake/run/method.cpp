@@ -16,12 +16,12 @@ std::vector<Option> method_options(const char* group, BakeOptions& o) {
        "by equation (4); planar reflectors only",
        choice(o.method, Names<Method>{{"oriel", Method::kOriel}, {"bastos1999", Method::kBastos1999}}), Use::kRare,
        "method", "reflections.md#as-published"},
-      {"--kernel", group,
+      {"--facets", group,
        "Distribution of K's facets: ggx, or with --method bastos1999 beckmann, its default, or gaussian",
        choice(o.material.model, Names<KernelModel>{{"ggx", KernelModel::kGgx},
                                                    {"beckmann", KernelModel::kBeckmann},
                                                    {"gaussian", KernelModel::kGaussian}}),
-       Use::kRare, "kernel", "materials.md#kernels-and-fresnel-maps"},
+       Use::kRare, "facets", "materials.md#kernels-and-fresnel-maps"},
       {"--sphere-map", group, "Side of the sphere maps of R in texels; 0: none",
        number(o.material.fresnel.sphere_size, 0, 1024), Use::kRare, "sphere_map",
        "materials.md#kernels-and-fresnel-maps"},
@@ -31,7 +31,7 @@ std::vector<Option> method_options(const char* group, BakeOptions& o) {
 Status settle_method(const Given& given, BakeOptions& o) {
   if (o.method == Method::kOriel) {
     if (o.material.model == KernelModel::kGgx) return {};
-    return fail(ErrorCode::kUsage, "--kernel", "found another than ggx without {}, expected both: paths follow GGX",
+    return fail(ErrorCode::kUsage, "--facets", "found another than ggx without {}, expected both: paths follow GGX",
                 kMethod);
   }
   const auto clash = [](const char* found, const char* expected) {
@@ -41,14 +41,14 @@ Status settle_method(const Given& given, BakeOptions& o) {
   if (given.has("--views") && o.view_scheme != ViewScheme::kHemisphere) return clash("planned --views", "hemisphere:N");
   if (given.has("--map-price"))
     return clash("--map-price", "none: uniform viewpoints are not chosen by what they show");
-  if (given.has("--kernel") && o.material.model == KernelModel::kGgx)
-    return clash("--kernel ggx", "beckmann or gaussian");
+  if (given.has("--facets") && o.material.model == KernelModel::kGgx)
+    return clash("--facets ggx", "beckmann or gaussian");
   o.ways = WaysWanted::kMaps;
   o.view_scheme = ViewScheme::kHemisphere;
   if (!given.has("--views")) o.views.views_per_element = kViews;
   if (!given.has("--map-resolution")) o.views.map_resolution = kResolution;
   if (!given.has("--orders")) o.sight.orders = 1;
-  if (!given.has("--kernel")) o.material.model = KernelModel::kBeckmann;
+  if (!given.has("--facets")) o.material.model = KernelModel::kBeckmann;
   o.material.kernel.form = LobeForm::kDg;
   o.material.by_incidence = false;
   o.material.fresnel.equation_4 = true;

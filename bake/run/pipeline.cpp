@@ -17,6 +17,7 @@
 #include "bake/run/start.h"
 #include "bake/run/time_budget.h"
 #include "bake/run/unlit.h"
+#include "bake/run/vertex_light.h"
 #include "bake/run/visibility.h"
 #include "formats/core/color.h"
 
@@ -56,17 +57,6 @@ void leave_out_kernels(MaterialMaps& materials, std::vector<Warning>& omissions)
   for (auto& kernel : materials.kernel) kernel = -1;
 }
 
-void fill_pack(const Scene& scene, MaterialMaps materials, AssembledMesh mesh, Pack& pack) {
-  assemble_materials(scene, materials, pack);
-  pack.mesh = std::move(mesh.mesh);
-  pack.kernels = std::move(materials.kernels);
-  pack.fresnel_maps = std::move(materials.fresnel_maps);
-  pack.split_reflectance = std::move(materials.split);
-  pack.cameras = scene.cameras;
-  pack.paths = scene.paths;
-  pack.sky = scene.sky;
-}
-
 // One bake: what its stages hand on to each other. Each stage is a function; run() names them in their order.
 class Bake {
  public:
@@ -100,6 +90,7 @@ class Bake {
     ORIEL_TRY_VOID(bake_lightmap());
     ORIEL_TRY_VOID(keep_energy_ledger());
     ORIEL_TRY_VOID(weigh_unlit());
+    ORIEL_TRY_VOID(light_vertices());
     ORIEL_TRY_VOID(capture_reflections());
     ORIEL_TRY_VOID(make_light_field());
     ORIEL_TRY_VOID(assemble());
@@ -252,6 +243,14 @@ class Bake {
     return {};
   }
 
+  Status light_vertices() {
+    if (!options_.vertex_light) return {};
+    return timed_("vertices", [&](auto&) -> Status {
+      vertices_ = light_pack_vertices(task(), mesh_, result_.omissions);
+      return {};
+    });
+  }
+
   Status capture_reflections() {
     if (!options_.with_radiance) {
       result_.omissions.emplace_back("radiance maps: left out by --only");
@@ -303,7 +302,7 @@ class Bake {
   Status assemble() {
     context_.foretell("writing", 0);
     if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
-    fill_pack(scene(), std::move(materials_), std::move(mesh_), pack());
+    assemble_scene(scene(), std::move(materials_), std::move(mesh_), pack());
     for (Material& material : pack().materials)
       if (material.unlit) material.emission = Vec3(unlit_white_);
     ORIEL_TRY_VOID(timed_("light groups", [&](std::uint64_t& rays) -> Status {
@@ -336,7 +335,7 @@ class Bake {
     pack().plan = plan_json({scene(), prepared_.atlas, prepared_.sides, result_.radiosity, result_.ledger, pack(),
                              result_.omissions, lights_->power(), reflections_, movers_, visibility_,
                              options_.radiosity.estimator == Estimator::kCached, asked, start_, result_.findings,
-                             result_.warnings});
+                             result_.warnings, vertices_});
     pack().provenance = provenance_json(options_, context_.seed, prepared_.imported->inputs);
     judge_time(options_, budget_, result_.times, context_, result_.shortfalls);
     const std::size_t warned = result_.warnings.size();
@@ -374,6 +373,7 @@ class Bake {
   std::vector<std::uint64_t> reflected_triangles_;  // by reflector
   PlannedReflections planned_;
   AssembledMesh mesh_;
+  std::optional<VertexLightReport> vertices_;
   VisibilityReport visibility_;
   std::vector<MoverReport> movers_;
   float unlit_white_ = 1;

@@ -193,8 +193,8 @@ Status judge(const LitSurroundings& lit, std::span<const RadianceMap> maps, cons
 std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<const std::uint32_t> triangles) {
   std::vector<std::uint32_t> indices;
   for (const std::uint32_t t : triangles)
-    for (std::uint32_t corner = 0; corner < 3; ++corner)
-      indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
+    for (std::uint32_t i = 0; i < (mesh.index_count.empty() ? 3 : mesh.index_count[t]); ++i)
+      indices.push_back(mesh.mesh.indices[mesh.first_index[t] + i]);
   return indices;
 }
 

@@ -285,6 +285,17 @@ const char* text_of(Start start) {
 
 }  // namespace
 
+static Json vertices_json(const std::optional<VertexLightReport>& r) {
+  if (!r) return nullptr;
+  return {{"error_asked", r->asked},
+          {"error", r->error},
+          {"triangles_before", r->triangles_before},
+          {"triangles", r->triangles},
+          {"vertices", r->vertices},
+          {"coarse_triangles", r->coarse},
+          {"full", r->full}};
+}
+
 std::string plan_json(const BakeFacts& f) {
   const Json json = {
       {"scene",
@@ -314,6 +325,7 @@ std::string plan_json(const BakeFacts& f) {
         {"reuse", reuse_json(f.radiosity.reuse)},
         {"seams", seams_json(f.radiosity.seams)},
         {"detail", detail_json(f.radiosity.detail)},
+        {"vertices", vertices_json(f.vertices)},
         {"mean_lux", rgb(f.radiosity.mean)},
         {"max_lux", rgb(f.radiosity.max)},
         {"relative_standard_error", f.radiosity.relative_error},

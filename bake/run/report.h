@@ -1,11 +1,14 @@
 // What a pack says of itself, as JSON.
 #pragma once
 
+#include <optional>
+
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/movers.h"
 #include "bake/run/pipeline.h"
 #include "bake/run/reflections.h"
 #include "bake/run/start.h"
+#include "bake/run/vertex_light.h"
 #include "bake/run/visibility.h"
 
 namespace oriel {
@@ -28,6 +31,7 @@ struct BakeFacts {
   Start start = Start::kOfScene;
   const std::vector<std::string>& findings;
   const std::vector<Warning>& warnings;
+  const std::optional<VertexLightReport>& vertices;
 };
 
 std::string plan_json(const BakeFacts& facts);

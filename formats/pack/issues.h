@@ -105,6 +105,7 @@ void validate_materials(const Pack& pack, IssueList& list);
 void validate_solids(const Pack& pack, IssueList& list);
 void validate_emission_textures(const Pack& pack, IssueList& list);
 void validate_textures(const Pack& pack, ImagePixels pixels, IssueList& list);
+void validate_vertex_light(const Pack& pack, IssueList& list);
 void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& list);
 void validate_reflectors(const Pack& pack, IssueList& list);
 void validate_radiance_maps(const Pack& pack, ImagePixels pixels, IssueList& list);

@@ -24,7 +24,7 @@ struct ShaderText {
   std::string text;
   std::vector<std::string> origin;
 };
-// define: a name that the text finds defined, if any.
+// define: names that the text finds defined, if any, with spaces between them.
 Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect, std::string_view define = {});
 
 // A driver's log with the places in it ("0:12(5)", "0(12)", "ERROR: 0:12") replaced by those of the files.

@@ -71,7 +71,11 @@ Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect, std::
   ShaderText out;
   out.name = name;
   out.text = dialect == Dialect::kEs300 ? kEsHead : kDesktopHead;
-  if (!define.empty()) out.text += fmt::format("#define {}\n", define);
+  for (std::size_t at = 0; at < define.size();) {
+    const std::size_t end = std::min(define.find(' ', at), define.size());
+    if (end > at) out.text += fmt::format("#define {}\n", define.substr(at, end - at));
+    at = end + 1;
+  }
   out.origin.resize(static_cast<std::size_t>(std::count(out.text.begin(), out.text.end(), '\n')));
   std::set<std::string_view> done;
   ORIEL_TRY_VOID(append_file(name, done, out));

@@ -83,12 +83,9 @@ Vec3 chart_color(std::uint32_t chart) {
   return {channel(0), channel(2), channel(4)};
 }
 
-std::vector<std::vector<std::uint8_t>> chart_colors(const Pack& pack) {
-  std::vector<std::vector<std::uint8_t>> out;
-  for (const LightmapPage& page : pack.lightmaps) {
-    out.emplace_back(4 * std::size_t{page.width} * page.height, std::uint8_t{0});
-    for (std::size_t i = 3; i < out.back().size(); i += 4) out.back()[i] = 255;
-  }
+// take(page, texel, chart) for all texels that a triangle touches.
+template <class Take>
+static void each_touched(const Pack& pack, const Take& take) {
   const Mesh& mesh = pack.mesh;
   const std::vector<std::uint32_t> charts = charts_of(mesh);
   for (const MeshPart& part : mesh.parts) {
@@ -96,14 +93,51 @@ std::vector<std::vector<std::uint8_t>> chart_colors(const Pack& pack) {
     const auto p = static_cast<std::size_t>(part.lightmap_page);
     const IVec2 size(pack.lightmaps[p].width, pack.lightmaps[p].height);
     for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
-      const Vec3 color = chart_color(charts[i / 3]) * 255.0f + 0.5f;
       std::array<Vec2, 3> corners;
       for (std::uint32_t c = 0; c < 3; ++c) corners[c] = mesh.lightmap_uvs[mesh.indices[i + c]];
-      touched_texels(corners, size, [&](std::size_t texel) {
-        for (int c = 0; c < 3; ++c)
-          out[p][4 * texel + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(color[c]);
-      });
+      touched_texels(corners, size, [&](std::size_t texel) { take(p, texel, charts[i / 3]); });
     }
+  }
+}
+
+std::vector<std::vector<std::uint8_t>> chart_colors(const Pack& pack) {
+  std::vector<std::vector<std::uint8_t>> out;
+  for (const LightmapPage& page : pack.lightmaps) {
+    out.emplace_back(4 * std::size_t{page.width} * page.height, std::uint8_t{0});
+    for (std::size_t i = 3; i < out.back().size(); i += 4) out.back()[i] = 255;
+  }
+  each_touched(pack, [&](std::size_t page, std::size_t texel, std::uint32_t chart) {
+    const Vec3 color = chart_color(chart) * 255.0f + 0.5f;
+    for (int c = 0; c < 3; ++c)
+      out[page][4 * texel + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(color[c]);
+  });
+  return out;
+}
+
+std::vector<std::vector<std::uint8_t>> inner_texels(const Pack& pack) {
+  constexpr std::uint32_t kSeveral = kNoChart - 1;
+  constexpr int kReach = 2;
+  std::vector<std::vector<std::uint32_t>> charts;
+  for (const LightmapPage& page : pack.lightmaps) charts.emplace_back(std::size_t{page.width} * page.height, kNoChart);
+  each_touched(pack, [&](std::size_t page, std::size_t texel, std::uint32_t chart) {
+    std::uint32_t& of = charts[page][texel];
+    of = of == kNoChart || of == chart ? chart : kSeveral;
+  });
+  std::vector<std::vector<std::uint8_t>> out;
+  for (std::size_t p = 0; p < charts.size(); ++p) {
+    const IVec2 size(pack.lightmaps[p].width, pack.lightmaps[p].height);
+    const auto at = [&](int x, int y) {
+      return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
+    };
+    std::vector<std::uint8_t>& inner = out.emplace_back(charts[p].size(), std::uint8_t{0});
+    for (int y = kReach; y < size.y - kReach; ++y)
+      for (int x = kReach; x < size.x - kReach; ++x) {
+        const std::uint32_t own = charts[p][at(x, y)];
+        bool alone = own != kNoChart && own != kSeveral;
+        for (int j = -kReach; j <= kReach && alone; ++j)
+          for (int i = -kReach; i <= kReach; ++i) alone &= charts[p][at(x + i, y + j)] == own;
+        inner[at(x, y)] = alone ? 255 : 0;
+      }
   }
   return out;
 }

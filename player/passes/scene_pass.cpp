@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "player/passes/charts.h"
 #include "player/scene/surface.h"
 
 namespace oriel {
@@ -21,26 +22,11 @@ void set_frame(const gpu::Program& program, const FrameContext& context) {
   program.set("u_normal_texture", kNormalUnit);
   program.set("u_change", kChangeUnit);
   program.set("u_surfaces", kPlaceUnit);
+  program.set("u_inner", kInnerUnit);
   program.set("u_change_scale", Vec2(0));
   program.set("u_reflectance_count", scene.reflectance_tables().width());
   scene.reflectance_tables().bind(kReflectanceUnit);
   scene.bind_geometry();
-}
-
-void set_material(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
-                  std::int32_t lightmap_page) {
-  set_surface(program, scene, material, !scene.pack().mesh.normal_uvs.empty());
-  const LoadedLightmap& lightmap = scene.lightmap(lightmap_page);
-  lightmap.texture.bind(kLightmapUnit);
-  program.set("u_lightmap_scale", lightmap.scale);
-  const bool directional = static_cast<bool>(lightmap.direction);
-  program.set("u_directional", directional ? 1 : 0);
-  (directional ? lightmap.direction : lightmap.texture).bind(kDirectionUnit);
-  const bool detailed = static_cast<bool>(lightmap.detail);
-  program.set("u_detailed", detailed ? 1 : 0);
-  if (!detailed) return;
-  lightmap.cells.bind(kCellUnit);
-  lightmap.detail.bind(kDetailUnit);
 }
 
 bool is_plain(const GpuScene& scene, std::uint32_t material) {
@@ -79,11 +65,54 @@ Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
   ScenePass pass;
   ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
   ORIEL_TRY(pass.plain_depth_, gpu::Program::create("depth", dialect, "PLAIN"));
-  ORIEL_TRY(pass.opaque_, gpu::Program::create("scene", dialect));
-  ORIEL_TRY(pass.plain_opaque_, gpu::Program::create("scene", dialect, "PLAIN"));
-  ORIEL_TRY(pass.reflected_opaque_, gpu::Program::create("scene", dialect, "REFLECTED"));
-  ORIEL_TRY(pass.transparent_, gpu::Program::create("transparent", dialect));
+  pass.dialect_ = dialect;
+  ORIEL_TRY_VOID(pass.make(kTexture));
   return pass;
+}
+
+Status ScenePass::make(LightForm form) {
+  constexpr std::array<const char*, kForms> kDefine{"", "BICUBIC", "VERTEX_LIGHT"};
+  const std::string define = kDefine[form];
+  Lit lit;
+  ORIEL_TRY(lit.opaque, gpu::Program::create("scene", dialect_, define));
+  ORIEL_TRY(lit.plain, gpu::Program::create("scene", dialect_, define + " PLAIN"));
+  ORIEL_TRY(lit.reflected, gpu::Program::create("scene", dialect_, define + " REFLECTED"));
+  ORIEL_TRY(lit.transparent, gpu::Program::create("transparent", dialect_, define));
+  lit_[form] = std::move(lit);
+  return {};
+}
+
+Status ScenePass::prepare(const GpuScene& scene, const FrameOptions& options) {
+  const bool bicubic = options.lightmap_filter == LightmapFilter::kBicubic;
+  form_ = scene.shows_vertex_light() ? kVertices : bicubic ? kBicubic : kTexture;
+  if (!lit_[form_]) ORIEL_TRY_VOID(make(form_));
+  if (form_ != kBicubic || inner_of_ == scene.geometry_serial()) return {};
+  const std::vector<std::vector<std::uint8_t>> inner = inner_texels(scene.pack());
+  inner_.clear();
+  for (std::size_t p = 0; p < inner.size(); ++p) {
+    const LightmapPage& page = scene.pack().lightmaps[p];
+    inner_.emplace_back(gpu::kR8, static_cast<int>(page.width), static_cast<int>(page.height), inner[p].data(),
+                        gpu::TextureOptions{.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR});
+  }
+  inner_of_ = scene.geometry_serial();
+  return {};
+}
+
+void ScenePass::set_material(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
+                             std::int32_t lightmap_page) const {
+  set_surface(program, scene, material, !scene.pack().mesh.normal_uvs.empty());
+  const LoadedLightmap& lightmap = scene.lightmap(lightmap_page);
+  lightmap.texture.bind(kLightmapUnit);
+  program.set("u_lightmap_scale", lightmap.scale);
+  if (form_ == kBicubic && lightmap_page >= 0) inner_[static_cast<std::size_t>(lightmap_page)].bind(kInnerUnit);
+  const bool directional = static_cast<bool>(lightmap.direction);
+  program.set("u_directional", directional ? 1 : 0);
+  (directional ? lightmap.direction : lightmap.texture).bind(kDirectionUnit);
+  const bool detailed = static_cast<bool>(lightmap.detail);
+  program.set("u_detailed", detailed ? 1 : 0);
+  if (!detailed) return;
+  lightmap.cells.bind(kCellUnit);
+  lightmap.detail.bind(kDetailUnit);
 }
 
 void ScenePass::draw_depth(const FrameContext& context, std::span<const DrawBatch> shown) const {
@@ -119,24 +148,24 @@ void ScenePass::draw_opaque(const FrameContext& context, std::span<const DrawBat
                             const std::set<std::uint32_t>& reflective,
                             const std::optional<BrightChange>& change) const {
   const auto& [scene, view, options, stats] = context;
-  set_frame(plain_opaque_, context);
-  set_frame(opaque_, context);
+  set_frame(lit().plain, context);
+  set_frame(lit().opaque, context);
   scene.bind_shown();
   if (change) {
     change->on_scene->bind(kChangeUnit);
     change->scene_surfaces->bind(kPlaceUnit);
-    opaque_.set("u_change_scale",
-                Vec2(static_cast<float>(change->on_scene->width()) / static_cast<float>(view.width),
-                     static_cast<float>(change->on_scene->height()) / static_cast<float>(view.height)));
+    lit().opaque.set("u_change_scale",
+                     Vec2(static_cast<float>(change->on_scene->width()) / static_cast<float>(view.width),
+                          static_cast<float>(change->on_scene->height()) / static_cast<float>(view.height)));
   }
-  opaque_.set("u_alpha_kind", 0);
+  lit().opaque.set("u_alpha_kind", 0);
   gpu::RasterState state;
   state.depth_test = true;
   state.stencil_read = kReflectorBits;
   for (const DrawBatch& batch : shown) {
     const bool twice = reflective.contains(batch.material);
     const Material& m = scene.pack().materials[batch.material];
-    const gpu::Program& program = is_plain(scene, batch.material) && !change ? plain_opaque_ : opaque_;
+    const gpu::Program& program = is_plain(scene, batch.material) && !change ? lit().plain : lit().opaque;
     program.use();
     state.cull = cull_of(m);
     state.blend = gpu::Blend::kNone;
@@ -161,7 +190,7 @@ void ScenePass::draw_reflected_depth(const FrameContext& context, const Mirrored
 
 void ScenePass::draw_reflected(const FrameContext& context, const MirroredScene& mirrored) const {
   const auto& [scene, view, options, stats] = context;
-  for (const gpu::Program* program : {&reflected_opaque_, &opaque_}) {
+  for (const gpu::Program* program : {&lit().reflected, &lit().opaque}) {
     set_frame(*program, context);
     set_distance_alpha(*program, view);
   }
@@ -171,7 +200,7 @@ void ScenePass::draw_reflected(const FrameContext& context, const MirroredScene&
   state.stencil_read = kReflectorBits;
   const auto draw = [&](const DrawBatch& batch, float undirected, float emission) {
     const Material& m = scene.pack().materials[batch.material];
-    const gpu::Program& program = is_plain(scene, batch.material) ? reflected_opaque_ : opaque_;
+    const gpu::Program& program = is_plain(scene, batch.material) ? lit().reflected : lit().opaque;
     program.use();
     state.cull = cull_of(m);
     gpu::apply(state);
@@ -198,7 +227,7 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
   const auto& [scene, view, options, stats] = context;
   std::vector<SeeThrough> sorted = see_through(scene, view);
   if (sorted.empty()) return {};
-  set_frame(transparent_, context);
+  set_frame(lit().transparent, context);
   gpu::RasterState state;
   state.depth_test = true;
   state.alpha_write = false;
@@ -207,17 +236,17 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
   for (const SeeThrough& one : sorted) {
     if (glass && one.body) {
       ORIEL_TRY_VOID(glass(*one.body, one.index));
-      set_frame(transparent_, context);
+      set_frame(lit().transparent, context);
     }
     for (const DrawRange& range : one.ranges) {
       state.cull = cull_of(scene.pack().materials[range.material]);
-      set_material(transparent_, scene, range.material, range.lightmap_page);
+      set_material(lit().transparent, scene, range.material, range.lightmap_page);
       const auto draw = [&](gpu::Blend blend, bool dimming, GLenum func, float undirected) {
         state.blend = blend;
         state.stencil_func = func;
         gpu::apply(state);
-        transparent_.set("u_dimming", dimming ? 1 : 0);
-        transparent_.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
+        lit().transparent.set("u_dimming", dimming ? 1 : 0);
+        lit().transparent.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
         draw_indices(range.first_index, range.index_count, stats);
       };
       if (!glass || !one.body) draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);

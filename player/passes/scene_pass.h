@@ -1,7 +1,9 @@
 // The scene itself: depth first, then the light of opaque surfaces, then see-through ones from far to near.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -37,6 +39,8 @@ using DrawGlass = std::function<Status(const GlassBody& body, std::size_t index)
 class ScenePass {
  public:
   static Result<ScenePass> create(gpu::Dialect dialect);
+  // Before a frame: the programs that it needs, and of a bicubic lightmap where charts are wide enough for it.
+  Status prepare(const GpuScene& scene, const FrameOptions& options);
 
   // Depth of the opaque scene into the bound framebuffer. shown: what of it.
   void draw_depth(const FrameContext& context, std::span<const DrawBatch> shown) const;
@@ -56,9 +60,23 @@ class ScenePass {
 
  private:
   void draw_depths(const FrameContext& context, std::span<const DrawBatch> shown) const;
-  // plain: of surfaces without normal map, cut-outs or change by movers, that are lit; reflected: those in the image of
-  // a mirror.
-  gpu::Program depth_, plain_depth_, opaque_, plain_opaque_, reflected_opaque_, transparent_;
+  // Where light comes from: textures, by either filter, or vertices. plain: of surfaces without normal map, cut-outs or
+  // change by movers, that are lit; reflected: those in the image of a mirror.
+  enum LightForm { kTexture, kBicubic, kVertices, kForms };
+  struct Lit {
+    gpu::Program opaque, plain, reflected, transparent;
+  };
+  Status make(LightForm form);
+  const Lit& lit() const { return *lit_[form_]; }
+  void set_material(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
+                    std::int32_t lightmap_page) const;
+
+  gpu::Dialect dialect_{};
+  gpu::Program depth_, plain_depth_;
+  std::array<std::optional<Lit>, kForms> lit_;  // made when first drawn
+  LightForm form_ = kTexture;
+  std::vector<gpu::Texture2d> inner_;  // by page: inner_texels()
+  std::uint64_t inner_of_ = 0;         // whose they are
 };
 
 }  // namespace oriel

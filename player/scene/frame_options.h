@@ -48,8 +48,13 @@ struct LiveSettings {
   bool operator==(const LiveSettings&) const = default;
 };
 
+// How light between texels of a lightmap is made: from four of them, or from sixteen by a cubic B-spline, as smooth as
+// radiosity is, where all of them are of one chart.
+enum class LightmapFilter { kBilinear, kBicubic };
+
 struct FrameOptions {
   Show show = Show::kAll;
+  LightmapFilter lightmap_filter = LightmapFilter::kBilinear;
   Reflections reflections = Reflections::kChosen;
   int orders = 2;            // mirrors on the way of a reflection, where the mirrored scene is drawn
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none

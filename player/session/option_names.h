@@ -28,6 +28,8 @@ inline const std::map<std::string, KernelPlace> kKernelPlaces{{"lobe", KernelPla
                                                               {"centred", KernelPlace::kCentred}};
 inline const std::map<std::string, Reflectance> kReflectances{{"table", Reflectance::kTable},
                                                               {"sphere", Reflectance::kSphereMap}};
+inline const std::map<std::string, LightmapFilter> kLightmapFilters{{"bilinear", LightmapFilter::kBilinear},
+                                                                    {"bicubic", LightmapFilter::kBicubic}};
 inline const std::map<std::string, MoverLights> kMoverLights{{"shadowed", MoverLights::kShadowed},
                                                              {"unshadowed", MoverLights::kUnshadowed},
                                                              {"harmonics", MoverLights::kHarmonics}};

@@ -69,9 +69,38 @@ TEST(Coplanar, LayersLieOnEachOther) {
   parts.quad("carpet", m, Vec3(-1, 0, -1), 2.0f * kZ, 2.0f * kX);
   parts.quad("copy", m, Vec3(-1, 0, -1), 2.0f * kZ, 2.0f * kX);
   const Scene scene = separated(parts);
-  EXPECT_LT(height(scene, 0), height(scene, 2));
+  EXPECT_LT(height(scene, 0), height(scene, 1));
+  EXPECT_LT(height(scene, 1), height(scene, 2)) << "a small one would be hidden";
   EXPECT_LT(height(scene, 2), height(scene, 3));
-  EXPECT_LT(height(scene, 3), height(scene, 1)) << "what lets light through lies on top";
+}
+
+TEST(Coplanar, OfCopiesThatWhichLetsLightThroughLiesOnTop) {
+  std::uint32_t m = 0;
+  SceneParts parts = floor_of(&m);
+  SceneMaterial cut_out;
+  cut_out.alpha_mode = AlphaMode::kMask;
+  parts.quad("leaves", parts.add(cut_out), Vec3(-1, 0, -1), 2.0f * kZ, 2.0f * kX);
+  parts.quad("carpet", m, Vec3(-1, 0, -1), 2.0f * kZ, 2.0f * kX);
+  const Scene scene = separated(parts);
+  EXPECT_LT(height(scene, 2), height(scene, 1));
+}
+
+// A poster a tenth of a millimetre before the wall, over a decal that lies in the wall's plane and is moved further.
+TEST(Coplanar, WhatLiesLittleBeforeOneIsNotOvertaken) {
+  for (const float before : {1e-5f, 1e-4f, 5e-4f}) {
+    std::uint32_t m = 0;
+    SceneParts parts = floor_of(&m);
+    parts.quad("decal", m, Vec3(-1, 0, -1), 2.0f * kZ, 2.0f * kX);
+    parts.quad("poster", m, Vec3(-0.5f, before, -0.5f), 2.0f * kZ, 2.0f * kX);
+    const Scene scene = separated(parts);
+    EXPECT_GT(height(scene, 1), 0);
+    EXPECT_EQ(seen_from_above(scene, 0.1f, 0.2f), "poster") << before;
+    EXPECT_EQ(seen_from_above(scene, -0.9f, -0.8f), "decal");
+  }
+  std::uint32_t m = 0;
+  SceneParts parts = floor_of(&m);
+  parts.quad("poster", m, Vec3(-0.5f, 1e-4f, -0.5f), 2.0f * kZ, 2.0f * kX);
+  EXPECT_EQ(height(separated(parts), 1), 1e-4f) << "nothing overtakes it";
 }
 
 // A case of glass, a pane seen from both sides or a block, does not hide what it stands on.

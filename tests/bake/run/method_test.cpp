@@ -51,11 +51,11 @@ TEST(PublishedMethod, IsInThePack) {
   EXPECT_EQ(options["method"], "bastos1999");
   EXPECT_EQ(options["views_per_element"], 64);
   EXPECT_EQ(options["orders"], 1);
-  for (const char* clash : {"--reflections geometry", "--views planned:8", "--map-price 0", "--kernel ggx"}) {
+  for (const char* clash : {"--reflections geometry", "--views planned:8", "--map-price 0", "--facets ggx"}) {
     EXPECT_EQ(run(bake + clash), 1) << clash;
     EXPECT_NE(log().find("bastos1999"), std::string::npos) << log();
   }
-  EXPECT_EQ(run("oriel-bake gallery.glb -o a.oriel --kernel gaussian"), 1) << "of that method alone";
+  EXPECT_EQ(run("oriel-bake gallery.glb -o a.oriel --facets gaussian"), 1) << "of that method alone";
 }
 
 }  // namespace
