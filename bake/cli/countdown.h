@@ -1,4 +1,4 @@
-// Time left as people are told it: it only falls, without jumps, and meets the estimate while that is still to come.
+// Time left as people are told it: it falls without jumps, and meets the estimate while that is still to come.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,10 @@ class Countdown {
  public:
   // The estimate as it is now_s seconds after the start; what is told of it. It runs faster or slower than the clock by
   // the fourth power of what it is off by, at most kFastest times: told twice too much, half of that is gone after a
-  // fifth of the time that is left.
+  // fifth of the time that is left. It rises only where it is wrong by far: a bake that goes on for minutes does not
+  // end in a second.
   double tell(double estimate_s, double now_s) {
-    if (told_s_ < 0) {
+    if (told_s_ < 0 || estimate_s > kFarTimes * told_s_ + kFar_s) {
       told_s_ = std::max(estimate_s, 0.0);
     } else if (told_s_ > 0) {
       const double off = told_s_ / std::max(estimate_s, kLeast_s);
@@ -27,7 +28,7 @@ class Countdown {
   bool begun() const { return told_s_ >= 0; }
 
  private:
-  static constexpr double kLeast_s = 0.1, kSlowest = 0.05, kFastest = 16;
+  static constexpr double kLeast_s = 0.1, kSlowest = 0.05, kFastest = 16, kFarTimes = 2, kFar_s = 10;
   double told_s_ = -1, last_s_ = 0;
 };
 

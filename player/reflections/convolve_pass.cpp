@@ -81,6 +81,7 @@ NdcRect in_reduced_view(const NdcRect& screen, const View& view, const View& red
 Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   ConvolvePass pass;
   ORIEL_TRY(pass.even_, gpu::Program::create("screen_kernel", dialect));
+  ORIEL_TRY(pass.cut_, gpu::Program::create("screen_cut", dialect));
   ORIEL_TRY(pass.program_, gpu::Program::create("screen_convolve", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
@@ -113,9 +114,21 @@ void set_convolution(const gpu::Program& program, const FrameContext& context, c
   program.set("u_taps", 2);
   program.set("u_tap_count", image.kernel.count);
   program.set("u_tap_rows", image.kernel.rows);
+}
+
+void ConvolvePass::cut(const FrameContext& context, const ReflectedImage& image) const {
   const Reflector& reflector = context.scene.pack().reflectors[image.reflector.index];
-  program.set("u_reflector_from_view", glm::inverse(context.view.view_from_pack * reflector.pack_from_reflector));
-  program.set("u_reflector_bounds", Vec4(reflector.lower, reflector.upper));
+  image.target.level_framebuffer.bind();
+  image.target.level_framebuffer.attach_color_level(image.target.sharp, 0);
+  glViewport(0, 0, image.rect.width, image.rect.height);
+  gpu::apply({});
+  glBindVertexArray(no_vertices_.name());
+  cut_.use();
+  set_blur_width(cut_, context, image);
+  cut_.set("u_reflector_from_view", glm::inverse(context.view.view_from_pack * reflector.pack_from_reflector));
+  cut_.set("u_reflector_bounds", Vec4(reflector.lower, reflector.upper));
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  ++context.stats.draws;
 }
 
 void ConvolvePass::draw_even(const FrameContext& context, const ReflectedImage& image) const {

@@ -29,13 +29,15 @@ NdcRect in_reduced_view(const NdcRect& screen, const View& view, const View& red
 class ConvolvePass {
  public:
   static Result<ConvolvePass> create(gpu::Dialect dialect);
+  // Pixels beside the reflector (its bounds) become holes of target.sharp: of mirrored geometry, which knows no edge.
+  void cut(const FrameContext& context, const ReflectedImage& image) const;
   // target.filled, all levels, to target.blurred.
   void draw(const FrameContext& context, const ReflectedImage& image) const;
   // The image, which is of the context's view, to target.blurred by one kernel.
   void draw_even(const FrameContext& context, const ReflectedImage& image) const;
 
  private:
-  gpu::Program program_, even_;
+  gpu::Program cut_, program_, even_;
   gpu::VertexArray no_vertices_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "formats/assets/light_field.h"
 #include "player/gpu/raster_state.h"
 
 namespace oriel {

@@ -10,8 +10,6 @@ uniform vec2 u_texture_size;
 uniform sampler2D u_taps;      // see kernel_tap()
 uniform int u_tap_count;
 uniform int u_tap_rows;
-uniform mat4 u_reflector_from_view;
-uniform vec4 u_reflector_bounds;  // on its plane: lower, upper
 
 vec4 image_at(vec2 pixel, float level) {
   float margin = 0.5 * exp2(ceil(level));
@@ -36,13 +34,6 @@ vec2 pixel_of(vec3 at) {
   return (ndc - u_ndc_from_image.zw) / u_ndc_from_image.xy;
 }
 
-// Whether the reflector may be at a pixel. Beside it the image shows what lies behind the walls that meet it at its edge: taps that
-// are carried there, further than such a wall is, would see the sky outside.
-bool on_reflector(vec2 pixel) {
-  vec2 p = (u_reflector_from_view * vec4(plane_hit(pixel).at, 1.0)).xy;
-  return all(greaterThanEqual(p, u_reflector_bounds.xy)) && all(lessThanEqual(p, u_reflector_bounds.zw));
-}
-
 // The light at a pixel of the image, and 1 / distance, 0 where nothing is seen.
 vec4 convolved(vec2 pixel) {
   vec4 centre = image_at(pixel, 0.0);
@@ -63,9 +54,7 @@ vec4 convolved(vec2 pixel) {
     vec4 tap = kernel_tap(u_taps, i, row);
     vec3 direction = lobe_direction(from.view, across, along, tap.xy), at = from.at + behind * direction;
     if (dot(direction, u_plane_normal) >= 0.0 || (u_ortho < 0.5 && at.z >= -1e-6 * from.distance)) continue;
-    vec2 to = pixel_of(at);
-    if (!on_reflector(to)) continue;
-    sum += tap.w * image_at(to, log2(max(tap.z * to_pixels, 1.0))).rgb;
+    sum += tap.w * image_at(pixel_of(at), log2(max(tap.z * to_pixels, 1.0))).rgb;
     total += tap.w;
   }
   return total > 0.0 ? vec4(sum / total, centre.a) : centre;

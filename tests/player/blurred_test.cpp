@@ -41,6 +41,16 @@ class Blurred : public FrameTest {
     options.show = Show::kMK;
     return draw(pack, camera, kWidth, kHeight, options);
   }
+  // In the reflector's last pixels of each row.
+  static void expect_red_feet(const Picture& p) {
+    int feet = 0;
+    for (int y = kHeight / 2 - 40; y <= kHeight / 2 + 40; y += 8) {
+      int x = kWidth - 1;
+      while (x > 0 && p.at(x, y) == Vec3(0)) --x;
+      for (int i = 0; i < 4; ++i, ++feet) EXPECT_LT(p.at(x - i, y).y, 0.05f * kGreen.y) << x - i << "," << y;
+    }
+    EXPECT_GT(feet, 20);
+  }
 };
 
 // Stripes at three distances above one another, red to the right of the middle: each edge is as wide as its distance
@@ -101,13 +111,26 @@ TEST_F(Blurred, BeyondItsEdgeAReflectorShowsWhatItShowsThere) {
     return d.x > 0 && z < 0.3f ? Seen{kRed, z} : Seen{kGreen, 3};
   });
   const Picture p = draw_mk(pack, camera_at({-0.9f, 0, 1}, {0.8f, 0, 0}));
-  int feet = 0;
-  for (int y = kHeight / 2 - 40; y <= kHeight / 2 + 40; y += 8) {
-    int x = kWidth - 1;
-    while (x > 0 && p.at(x, y) == Vec3(0)) --x;  // the reflector's last pixel of this row
-    for (int i = 0; i < 4; ++i, ++feet) EXPECT_LT(p.at(x - i, y).y, 0.05f * kGreen.y) << x - i << "," << y;
-  }
-  EXPECT_GT(feet, 20);
+  expect_red_feet(p);
+}
+
+// The same of mirrored geometry: a blue wall close behind the red one is seen by no ray from the reflector, but in its
+// image past the red one's foot.
+TEST_F(Blurred, BesideAWallAtItsEdgeAReflectorShowsNothingOfWhatLiesBehind) {
+  Pack pack = blurring_pack(0.3f, {}, nullptr);
+  pack.materials.resize(3);
+  pack.materials[1].emission = kRed;
+  pack.materials[2].emission = {0, 0, 50};
+  add_quad(pack, {1, -1, 0}, {0, 0, 0.3f}, {0, 2, 0}, 1, -1);
+  add_quad(pack, {1.02f, -1, 0}, {0, 0, 0.3f}, {0, 2, 0}, 2, -1);
+  Camera camera = camera_at({-0.9f, 0, 1}, {0.8f, 0, 0});
+  camera.up = {0.3f, 1, 0};  // its edge is no edge of the image
+  const Picture p = draw_mk(pack, camera);
+  float red = 0, blue = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) red = std::max(red, p.at(x, y).x), blue = std::max(blue, p.at(x, y).z);
+  EXPECT_GT(red, 0.9f * kRed.x);
+  EXPECT_LT(blue, 0.01f * kRed.x);
 }
 
 }  // namespace

@@ -237,8 +237,6 @@ export class Reflections {
     program.set('u_texture_size', [image.width, image.height]);
     program.set('u_tap_count', kernel.count);
     program.set('u_tap_rows', kernel.rows);
-    program.set('u_reflector_from_view', v.inverseRigid(m));
-    program.set('u_reflector_bounds', [...scene.data.reflectors[r.index]!.lower, ...scene.data.reflectors[r.index]!.upper]);
   }
 
   private drawBlurred(scene: GpuScene, view: View, r: GpuReflector, kernel: GpuKernel, rect: ImageRect, image: Image): void {

@@ -124,16 +124,14 @@ TEST_F(BakeCli, ExitCodesAndMessages) {
 }
 
 // The gallery has reflectors too, so that every stage takes part.
-TEST_F(BakeCli, SameBytesForAnyThreadsAndTwiceInARow) {
+TEST_F(BakeCli, SameBytesForAnyThreads) {
   ASSERT_EQ(run("oriel-scenes gallery -o gallery.glb"), 0) << log();
-  const std::string options = " --texel 25cm --samples 16 --reflections maps --quiet";
+  const std::string options = " --texel 50cm --samples 16 --reflections maps --map-resolution 64 --quiet";
   ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o one.oriel --threads 1" + options), 0) << log();
   ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o two.oriel --threads 2" + options), 0) << log();
-  ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o again.oriel --threads 2" + options), 0) << log();
   EXPECT_EQ(log(), "") << "--quiet says nothing unless there is something to warn of";
   const Bytes one = *read_file(folder_ / "one.oriel");
   EXPECT_EQ(one, *read_file(folder_ / "two.oriel"));
-  EXPECT_EQ(one, *read_file(folder_ / "again.oriel"));
   EXPECT_GT(read_pack(folder_ / "one.oriel")->radiance_maps.size(), 10u);
   ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o other.oriel --seed 2" + options), 0) << log();
   EXPECT_NE(one, *read_file(folder_ / "other.oriel")) << "the comparison must be able to fail";

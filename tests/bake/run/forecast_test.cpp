@@ -84,5 +84,13 @@ TEST(CountdownTest, OnlyFallsAndMeetsTheTruth) {
   }
 }
 
+// A minute's work that turns out to be ten is told so: not as a second that lasts for nine.
+TEST(CountdownTest, RisesWhereItWasFarOff) {
+  Countdown countdown;
+  double told = 0;
+  for (double now = 0; now < 100; now += 0.5) told = countdown.tell((now < 50 ? 60 : 600) - now, now);
+  EXPECT_NEAR(told / 500, 1, 0.05);
+}
+
 }  // namespace
 }  // namespace oriel
