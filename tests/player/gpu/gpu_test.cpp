@@ -108,7 +108,7 @@ TEST(Programs, ErrorsNameTheFileAndTheLine) {
     EXPECT_NE(text.find(expected), std::string::npos) << text;
   };
   broken_at("vec3 srgb_from_linear", "lib/color.glsl:6");
-  broken_at("void main()", "passes/screen_tonemap.frag:23");
+  broken_at("void main()", "passes/screen_tonemap.frag:24");
   EXPECT_FALSE(gpu::Program::create("no_such_pass", Dialect::kDesktop330));
 }
 
