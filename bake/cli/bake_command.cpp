@@ -51,14 +51,20 @@ std::string brightness_text(const Certificate& c) {
                      100 * c.bias_interval, c.bias > 0 ? "brighter" : "darker");
 }
 
+// A measurement that cannot be told from its own noise is a bound.
+std::string measured_text(const Certificate& c) {
+  if (c.error_low <= 0)
+    return fmt::format("at most {:.2g} % (less is hidden by the noise of its paths)", 100 * c.error_high);
+  return fmt::format("{:.2g} % ({:.2g} to {:.2g} %)", 100 * c.relative_error, 100 * c.error_low, 100 * c.error_high);
+}
+
 std::string light_line(const RadiosityReport& r) {
   std::string line = fmt::format("light: {} texels, stated error {:.2g} %", r.texels, 100 * r.stated());
   if (r.detail.unresolved > 0)
     line +=
         fmt::format(" ({:.2g} % noise, {:.2g} % between texels)", 100 * r.relative_error, 100 * r.detail.unresolved);
   if (const Certificate& c = r.certificate; c.pixels > 0)
-    line += fmt::format("; measured {:.2g} % ({:.2g} to {:.2g} %) on {} held-out pixels, {}", 100 * c.relative_error,
-                        100 * c.error_low, 100 * c.error_high, c.pixels, brightness_text(c));
+    line += fmt::format("; measured {} on {} held-out pixels, {}", measured_text(c), c.pixels, brightness_text(c));
   if (r.reuse.asked > 0)
     line += fmt::format("; {} of {} tiles keep the light of the bake before, with {:.2g} % of error in all of it",
                         r.reuse.kept, r.reuse.tiles, 100 * r.reuse.error);

@@ -143,7 +143,7 @@ void ProgressPrinter::line(const char* event, const std::string& message) {
 
 void ProgressPrinter::warning(const std::string& message) {
   const std::lock_guard lock(mutex_);
-  line("warning", message);
+  if (warned_.insert(message).second) line("warning", message);
 }
 
 void ProgressPrinter::note(const std::string& message) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -24,6 +25,7 @@ class ProgressPrinter {
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
   void operator()(const Progress& progress);
+  // Once, however many nodes of one name it is about.
   void warning(const std::string& message);
   void note(const std::string& message);
   // Ends a bar's line.
@@ -43,6 +45,7 @@ class ProgressPrinter {
   static constexpr double kShort = 0.5;  // seconds
   std::string stage_;
   std::string told_;  // the stage that ended last
+  std::set<std::string> warned_;
   Clock::time_point begun_ = Clock::now(), started_ = begun_, drawn_ = begun_;
   double fraction_ = 0;
   // Of the whole work, as it was foretold last, then; < 0: it was not. And what is told of it.

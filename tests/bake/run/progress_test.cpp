@@ -50,7 +50,17 @@ TEST(ProgressPrinter, WhatEndsSoonHasOneLine) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
 }
 
-// One number for the whole work, which only falls; none where nobody knows.
+TEST(ProgressPrinter, AWarningIsToldOnce) {
+  testing::internal::CaptureStderr();
+  {
+    ProgressPrinter printer(Style::kQuiet);
+    for (const char* text : {"a", "b", "a", "a"}) printer.warning(text);
+  }
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+}
+
+// One number for the whole work, which does not jump; none where nobody knows.
 TEST(ProgressPrinter, TimeLeftIsThatOfTheWhole) {
   testing::internal::CaptureStderr();
   {
