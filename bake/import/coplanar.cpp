@@ -135,7 +135,7 @@ struct Cells {
 };
 
 // One warning: the first few by name.
-void tell(const Scene& scene, const std::map<std::uint32_t, std::uint32_t>& told, double lift, Context& context) {
+void tell(const Scene& scene, const std::map<std::uint32_t, std::uint32_t>& told, Context& context) {
   constexpr std::size_t kNamed = 4;
   std::string names;
   std::size_t named = 0;
@@ -144,8 +144,7 @@ void tell(const Scene& scene, const std::map<std::uint32_t, std::uint32_t>& told
       names += fmt::format("{}\"{}\" with \"{}\"", named > 1 ? ", " : "", scene.surfaces[surface].name,
                            scene.surfaces[below].name);
   if (named > kNamed) names += fmt::format(" and {} more", named - kNamed);
-  context.warning(
-      fmt::format("surfaces lie in one place with others, and were moved {:.2g} mm apart: {}", lift * 1e3, names));
+  context.warning("surfaces lie in one place with others, and were moved a little apart: " + names);
 }
 
 }  // namespace
@@ -175,7 +174,7 @@ void separate_layers(Scene& scene, Context& context) {
   }
   if (told.empty()) return;
   lifter.finish();
-  tell(scene, told, lift, context);
+  tell(scene, told, context);
 }
 
 }  // namespace oriel
