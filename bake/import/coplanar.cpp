@@ -40,7 +40,11 @@ class Lifter {
     return false;
   }
 
+  // Faces lower than a lift may turn over: they keep their front on the side of their normals.
   void finish() {
+    std::vector<Vec3> before;
+    before.reserve(scene_.triangles.size());
+    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) before.push_back(geometric_normal(scene_, t));
     for (std::size_t v = 0; v < moved_.size(); ++v) {
       Vec3& p = scene_.positions[v];
       p += moved_[v];
@@ -48,6 +52,8 @@ class Lifter {
       scene_.upper = glm::max(scene_.upper, p);
     }
     scene_.face_normals.clear();
+    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
+      if (glm::dot(geometric_normal(scene_, t), before[t]) < 0) std::swap(scene_.triangles[t].y, scene_.triangles[t].z);
     std::vector<Vec3> normals;
     normals.reserve(scene_.triangles.size());
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) normals.push_back(geometric_normal(scene_, t));

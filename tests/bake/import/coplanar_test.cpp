@@ -153,6 +153,20 @@ TEST(Coplanar, BodiesStayClosed) {
 }
 
 // Panels in the plane of a ceiling shine into the room.
+// A sheet thinner than what is moved: its sides turn over with their bottom, and show their normals all the same.
+TEST(Coplanar, SidesOfThinBodiesKeepTheirFront) {
+  std::uint32_t m = 0;
+  SceneParts parts = floor_of(&m);
+  parts.quad("ceiling below", m, Vec3(-2, 0, -2), 4.0f * kX, 4.0f * kZ);
+  parts.box("paper", m, Vec3(-0.5f, 0, -0.5f), Vec3(0.5f, 5e-5f, 0.5f));
+  std::size_t warnings = 0;
+  const Scene scene = separated(parts, &warnings);
+  EXPECT_EQ(warnings, 1u);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_GT(glm::dot(geometric_normal(scene, t), scene.normals[scene.triangles[t][k]]), 0) << t;
+}
+
 TEST(Coplanar, PanelsInCeilingsAreSeen) {
   SceneParts parts;
   const std::uint32_t m = parts.diffuse(Vec3(0.5f));
