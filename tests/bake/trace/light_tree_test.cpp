@@ -1,6 +1,7 @@
 // The choice among many lights: an exact distribution, wherever it is asked.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "bake/trace/lights.h"
@@ -35,7 +36,8 @@ std::vector<BoundedLight> random_lights(std::size_t count, float size) {
 
 // Inside, among coinciding lights, on a light, far away.
 std::vector<Vec3> places(const std::vector<BoundedLight>& lights, float size) {
-  std::vector<Vec3> out = {Vec3(0.5f * size), lights[2].lower, Vec3(1e6f * size), Vec3(-size, 0, 0)};
+  std::vector<Vec3> out = {Vec3(0.5f * size), lights[std::min<std::size_t>(2, lights.size() - 1)].lower,
+                           Vec3(1e6f * size), Vec3(-size, 0, 0)};
   for (std::uint64_t i = 0; i < 20; ++i) out.push_back(size * (2.0f * random_point(i) - 0.5f));
   return out;
 }
