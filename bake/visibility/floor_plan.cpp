@@ -44,7 +44,7 @@ class Searcher {
     const float horizontal = glm::length(Vec2(way.x, way.z));
     if (std::abs(way.y) > std::max(options_.step_m, horizontal * std::tan(options_.max_slope_deg * kPi / 180)))
       return false;
-    return std::all_of(heights().begin(), heights().end(), [&](float h) { return free(from + Vec3(0, h, 0), way); });
+    return std::ranges::all_of(heights(), [&](float h) { return free(from + Vec3(0, h, 0), way); });
   }
 
  private:
