@@ -72,7 +72,7 @@ class Lifter {
     for (const std::uint32_t t : layer.triangles)
       for (int k = 0; k < 3; ++k) {
         const Vec3& corner = scene_.positions[scene_.triangles[t][k]];
-        for (const auto& [hash, v] : std::ranges::equal_range(at_, PlaceHash()(corner), {}, &Place::first))
+        for (const auto& [hash, v] : std::ranges::equal_range(at_, PositionHash()(corner), {}, &Place::first))
           if (scene_.positions[v] == corner && same_object(surface_of_[v], of)) vertices.insert(v);
       }
     return vertices;
@@ -84,7 +84,7 @@ class Lifter {
       for (std::uint32_t i = 0; i < scene_.surfaces[s].vertex_count; ++i) {
         const std::uint32_t v = scene_.surfaces[s].first_vertex + i;
         surface_of_[v] = s;
-        at_.emplace_back(PlaceHash()(scene_.positions[v]), v);
+        at_.emplace_back(PositionHash()(scene_.positions[v]), v);
       }
     std::ranges::sort(at_);
   }

@@ -74,7 +74,7 @@ bool PlanePatches::has_elsewhere(std::uint32_t vertex, std::uint32_t patch) cons
 // Triangles of a surface that have a corner in common.
 DisjointSets PlanePatches::connected() const {
   DisjointSets sets(triangles_.size());
-  std::unordered_map<Vec3, std::uint32_t, PlaceHash> at;
+  std::unordered_map<Vec3, std::uint32_t, PositionHash> at;
   std::uint32_t of_surface = ~0u;
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
     const std::uint32_t t = triangles_[i].triangle;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,6 +12,7 @@
 
 #include "bake/scene/scene.h"
 #include "formats/core/disjoint_sets.h"
+#include "formats/core/position_hash.h"
 
 namespace oriel {
 
@@ -21,20 +21,6 @@ struct Planar {
   std::uint64_t cell = 0;
   std::uint32_t triangle = 0;
   bool operator<(const Planar& o) const { return std::tie(cell, triangle) < std::tie(o.cell, o.triangle); }
-};
-
-struct PlaceHash {
-  std::size_t operator()(const Vec3& p) const {
-    std::uint64_t h = 0;
-    for (int k = 0; k < 3; ++k) {
-      std::uint32_t bits = 0;
-      const float value = p[k] + 0.0f;  // -0 is 0
-      std::memcpy(&bits, &value, sizeof bits);
-      h = (h ^ bits) * 0x9e3779b97f4a7c15u;
-      h ^= h >> 29;
-    }
-    return h;
-  }
 };
 
 // A patch that lies on others, or lets light through and may lie on what faces it.

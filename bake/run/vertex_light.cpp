@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include "bake/radiosity/texels/frame_error.h"
+#include "formats/core/position_hash.h"
 
 namespace oriel {
 namespace {
@@ -28,14 +28,6 @@ struct Triangle {
 std::uint64_t edge_of(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
 }
-
-struct PositionHash {
-  std::size_t operator()(const Vec3& p) const {
-    std::uint64_t h = 0;
-    for (int i = 0; i < 3; ++i) h = (h ^ std::bit_cast<std::uint32_t>(p[i] + 0.0f)) * 0x9e3779b97f4a7c15u;
-    return static_cast<std::size_t>(h ^ h >> 29);
-  }
-};
 
 std::uint32_t mean_color(std::uint32_t a, std::uint32_t b) {
   std::uint32_t out = 0;

@@ -16,8 +16,8 @@ namespace oriel {
 struct PathOptions {
   int max_bounces = 4096;  // only a guard: Russian roulette ends paths long before
   int roulette_from = 3;   // bounces that are never ended by chance
-  float unlit_white =
-      0;  // cd/m² that eyes see of white unlit surfaces, straight or by specular lobes; 0: none, as light
+  // cd/m² that eyes see of white unlit surfaces, straight or by specular lobes; 0: none, they are seen through.
+  float unlit_white = 0;
 };
 
 class LightBook;

@@ -17,8 +17,7 @@ struct UnitGuess {
 // from within do not), ceilings over one, and floors between walls as high as that with nothing overhead, for modellers
 // leave ceilings out to look in. Where there are hardly any, but rooms all the same (something overhead, and walls on
 // three of four sides), or these are a kilometre high, the unit is the power of ten that makes them 2.7 m high at the
-// median. Nothing where the numbers can be metres or no room tells. The same
-// rooms in any unit give the same rooms.
+// median. Nothing where the numbers can be metres or no room tells. The same rooms in any unit give the same rooms.
 std::optional<UnitGuess> guess_unit(const Accel& accel);
 
 // Of the rooms that points of surfaces lie in, each weighted as in guess_unit(), m; nothing without a room.

@@ -48,6 +48,11 @@ struct SolidGlass {
   Vec3 absorption{0};          // 1/m, >= 0: Beer and Lambert's law
 };
 
+// cd/m² that a white texel of an unlit material shows.
+inline Vec3 unlit_white(const Material& m) {
+  return m.emission == Vec3(0) ? Vec3(1) : m.emission;
+}
+
 // The picture that a material shines with: a screen, a light box. Its radiance is emission · texel / mean, texels
 // linear.
 struct EmissionTexture {

@@ -14,7 +14,7 @@ constexpr float kRing = 0.05f;                         // its radius, in the pic
 // Texels are read at their centre: pages' colours, not their filtering.
 Vec3 light_of(const Pack& pack, const MeshPart& part, const TriangleHit& hit) {
   const Material& m = pack.materials[part.material];
-  if (m.unlit) return 100.0f * m.base_color;
+  if (m.unlit) return unlit_white(m) * m.base_color;
   Vec3 light = m.emission;
   if (part.lightmap_page < 0) return light;
   const LightmapPage& page = pack.lightmaps[static_cast<std::size_t>(part.lightmap_page)];

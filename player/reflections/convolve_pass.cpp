@@ -116,13 +116,17 @@ void set_convolution(const gpu::Program& program, const FrameContext& context, c
   program.set("u_tap_rows", image.kernel.rows);
 }
 
-void ConvolvePass::cut(const FrameContext& context, const ReflectedImage& image) const {
-  const Reflector& reflector = context.scene.pack().reflectors[image.reflector.index];
+void ConvolvePass::draw_into(const ReflectedImage& image, const gpu::Texture2d& texture, const IVec2& size) const {
   image.target.level_framebuffer.bind();
-  image.target.level_framebuffer.attach_color_level(image.target.sharp, 0);
-  glViewport(0, 0, image.rect.width, image.rect.height);
+  image.target.level_framebuffer.attach_color_level(texture, 0);
+  glViewport(0, 0, size.x, size.y);
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
+}
+
+void ConvolvePass::cut(const FrameContext& context, const ReflectedImage& image) const {
+  const Reflector& reflector = context.scene.pack().reflectors[image.reflector.index];
+  draw_into(image, image.target.sharp, IVec2(image.rect.width, image.rect.height));
   cut_.use();
   set_blur_width(cut_, context, image);
   cut_.set("u_reflector_from_view", glm::inverse(context.view.view_from_pack * reflector.pack_from_reflector));
@@ -137,11 +141,7 @@ void ConvolvePass::draw_even(const FrameContext& context, const ReflectedImage& 
                                                even_pixels_per_tangent(image.reflector, context.view));
   const int side = 2 * kernel.radius + 1;
   const gpu::Texture2d weights(gpu::kR32f, side, side, kernel.weights.data());
-  image.target.level_framebuffer.bind();
-  image.target.level_framebuffer.attach_color_level(image.target.blurred, 0);
-  glViewport(0, 0, image.rect.width, image.rect.height);
-  gpu::apply({});
-  glBindVertexArray(no_vertices_.name());
+  draw_into(image, image.target.blurred, IVec2(image.rect.width, image.rect.height));
   even_.use();
   even_.set("u_image", 0);
   even_.set("u_kernel", 2);
@@ -154,11 +154,7 @@ void ConvolvePass::draw_even(const FrameContext& context, const ReflectedImage& 
 }
 
 void ConvolvePass::draw(const FrameContext& context, const ReflectedImage& image) const {
-  image.target.level_framebuffer.bind();
-  image.target.level_framebuffer.attach_color_level(image.target.blurred, 0);
-  glViewport(0, 0, image.rect.width / image.rect.coarse, image.rect.height / image.rect.coarse);
-  gpu::apply({});
-  glBindVertexArray(no_vertices_.name());
+  draw_into(image, image.target.blurred, IVec2(image.rect.width, image.rect.height) / image.rect.coarse);
   program_.use();
   set_convolution(program_, context, image);
   glDrawArrays(GL_TRIANGLES, 0, 3);

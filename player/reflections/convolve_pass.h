@@ -37,6 +37,8 @@ class ConvolvePass {
   void draw_even(const FrameContext& context, const ReflectedImage& image) const;
 
  private:
+  void draw_into(const ReflectedImage& image, const gpu::Texture2d& texture, const IVec2& size) const;
+
   gpu::Program cut_, program_, even_;
   gpu::VertexArray no_vertices_;
 };

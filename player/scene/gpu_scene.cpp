@@ -324,8 +324,9 @@ const EmissionTexture* GpuScene::emission_texture(std::uint32_t material) const 
 }
 
 Vec3 GpuScene::brightest_emission(std::uint32_t material) const {
-  Vec3 brightest = pack_.materials[material].emission;
-  if (pack_.materials[material].unlit) return brightest == Vec3(0) ? Vec3(1) : brightest;
+  const Material& m = pack_.materials[material];
+  if (m.unlit) return oriel::unlit_white(m);
+  Vec3 brightest = m.emission;
   if (const EmissionTexture* picture = emission_texture(material))
     for (int c = 0; c < 3; ++c) brightest[c] = picture->mean[c] > 0 ? brightest[c] / picture->mean[c] : 0.0f;
   return brightest;

@@ -15,13 +15,8 @@ Pack wall_with_an_edge(std::uint32_t log2_side) {
   pack.materials.resize(1);
   pack.materials[0].base_color = Vec3(0.5f);
   add_quad(pack, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0, 0);
-  LightmapPage page;
-  page.width = page.height = kTexels;
-  page.standard_error.assign(kTexels * kTexels, Vec3(0));
-  page.state.assign(kTexels * kTexels, TexelState::kValid);
   const auto light = [](float x) { return Vec3(x < kEdge ? 1000.0f : 0.0f); };
-  for (std::uint32_t i = 0; i < kTexels * kTexels; ++i)
-    page.irradiance.push_back(light(static_cast<float>(i % kTexels)));
+  LightmapPage page = page_of(kTexels, [&](std::uint32_t x, auto) { return light(static_cast<float>(x)); });
   const std::uint32_t side = 1u << log2_side, row = kTexels * (side + 1);
   page.detail_width = page.detail_height = row;
   page.cell.assign(kTexels * kTexels, 0), page.detail.resize(std::size_t{row} * row);

@@ -23,13 +23,17 @@ void add_quad(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up,
   mesh.parts.push_back(part);
 }
 
-LightmapPage flat_page(const Vec3& irradiance) {
+LightmapPage page_of(std::uint32_t side, const std::function<Vec3(std::uint32_t x, std::uint32_t y)>& light) {
   LightmapPage page;
-  page.width = page.height = 4;
-  page.irradiance.assign(16, irradiance);
-  page.standard_error.assign(16, Vec3(0));
-  page.state.assign(16, TexelState::kValid);
+  page.width = page.height = side;
+  for (std::uint32_t i = 0; i < side * side; ++i) page.irradiance.push_back(light(i % side, i / side));
+  page.standard_error.assign(std::size_t{side} * side, Vec3(0));
+  page.state.assign(std::size_t{side} * side, TexelState::kValid);
   return page;
+}
+
+LightmapPage flat_page(const Vec3& irradiance) {
+  return page_of(4, [&](auto, auto) { return irradiance; });
 }
 
 FresnelMap flat_reflectance(const Vec3& reflectance) {

@@ -14,6 +14,8 @@ namespace oriel::testing {
 void add_quad(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up, std::uint32_t material,
               std::int32_t page);
 
+// A page of side² texels, lux, by their place.
+LightmapPage page_of(std::uint32_t side, const std::function<Vec3(std::uint32_t x, std::uint32_t y)>& light);
 // A page of one colour, lux.
 LightmapPage flat_page(const Vec3& irradiance);
 

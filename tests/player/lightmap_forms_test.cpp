@@ -18,12 +18,7 @@ Pack wall(const std::function<float(std::uint32_t x, std::uint32_t y)>& lux) {
   pack.materials.resize(1);
   pack.materials[0].base_color = Vec3(0.5f);
   add_quad(pack, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0, 0);
-  LightmapPage page;
-  page.width = page.height = kTexels;
-  for (std::uint32_t i = 0; i < kTexels * kTexels; ++i) page.irradiance.emplace_back(lux(i % kTexels, i / kTexels));
-  page.standard_error.assign(kTexels * kTexels, Vec3(0));
-  page.state.assign(kTexels * kTexels, TexelState::kValid);
-  pack.lightmaps = {page};
+  pack.lightmaps = {page_of(kTexels, [&](auto x, auto y) { return Vec3(lux(x, y)); })};
   return pack;
 }
 
