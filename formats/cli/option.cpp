@@ -97,6 +97,7 @@ template OptionValue number(std::uint32_t&, double, double);
 template OptionValue number(std::uint64_t&, double, double);
 template OptionValue number(float&, double, double);
 template OptionValue number(double&, double, double);
+template OptionValue number(std::optional<int>&, double, double);
 template OptionValue number(std::optional<std::uint32_t>&, double, double);
 template OptionValue number(std::optional<float>&, double, double);
 template OptionValue number(std::optional<double>&, double, double);

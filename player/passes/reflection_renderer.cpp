@@ -1,6 +1,7 @@
 #include "player/passes/reflection_renderer.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "player/passes/holes.h"
 #include "player/passes/mirrored_view.h"
@@ -25,6 +26,15 @@ constexpr float kLeastReflectance = 0.01f, kLeastShown = 1e-3f;
 // Of the light, from which a reflector is a mirror to others.
 constexpr float kMirroring = 0.5f;
 
+// Reflectors on the way of a reflection, where nothing is asked for: images in images grow in number as a power of it.
+// A way by mirrors alone that leaves kMirroring of the light goes on to kMostOrders, which facing mirrors of glass and
+// silver (0.9 each) end at six.
+constexpr int kOrders = 2, kMostOrders = 16;
+
+int most_orders(const FrameOptions& options) {
+  return options.coarse ? 1 : options.orders.value_or(kMostOrders);
+}
+
 float share_of_picture(const NdcRect& rect) {
   const Vec2 size = glm::max(glm::min(rect.upper, Vec2(1)) - glm::max(rect.lower, Vec2(-1)), Vec2(0));
   return 0.25f * size.x * size.y;
@@ -47,6 +57,15 @@ int even_reduction(const GpuScene& scene, const GpuReflector& reflector, const V
 
 bool shows_reflectors(const FrameOptions& options) {
   return options.show != Show::kD && options.reflections != Reflections::kOff;
+}
+
+// Whether what a reflector shows in an image is worth one of its own; left: of the light, by all mirrors on the way.
+bool worth_an_image(const FrameContext& context, const ReflectionTarget& target, const GpuReflector& reflector,
+                    float left) {
+  const auto& [scene, view, options, stats] = context;
+  if (left < kLeastReflectance || scene.is_transparent(reflector.material)) return false;
+  if (options.orders || target.mirrors < kOrders) return true;
+  return left >= kMirroring && !scene.kernel(reflector.material, options.kernel, options.coarse).blurs();
 }
 
 bool marches(Reflections way) {
@@ -97,9 +116,9 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
       continue;
     const bool see_through = scene.is_transparent(reflector.material);
     const float left = target.reflectance * reflectance_of(scene.pack(), reflector.material);
-    if (target.frame == nullptr && (see_through || left < kLeastReflectance ||
-                                    left * target.share * share_of_picture(marked.screen) < kLeastShown))
-      continue;
+    marked.worth = target.frame != nullptr ? std::numeric_limits<float>::infinity() : left * target.share;
+    if (target.frame == nullptr && !worth_an_image(context, target, reflector, left)) continue;
+    if (marked.worth * share_of_picture(marked.screen) < kLeastShown) continue;
     if (maps) {
       ORIEL_TRY(const bool shows, scene.may_show_maps(reflector));
       marked.waits = !shows;
@@ -119,7 +138,9 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
     m.screen = ReflectorPass::visible_part(m.screen, view, std::span(queries_).subspan(m.query, kMaskQueries));
     if (m.waits && !m.screen.empty) scene.want_maps(*m.reflector);
   }
-  std::erase_if(out, [](const MarkedReflector& m) { return m.screen.empty || m.waits; });
+  std::erase_if(out, [](const MarkedReflector& m) {
+    return m.screen.empty || m.waits || m.worth * share_of_picture(m.screen) < kLeastShown;
+  });
   for (const MarkedReflector& m : out)
     if (m.value > 0) marks.reflective.insert(m.reflector->material);
   return out;
@@ -232,7 +253,7 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
                                          sets_hold(work.context, target) ? reflector.seen : std::nullopt),
                          pack.reflectors[reflector.index].emitters,
                          {}};
-  if (inside.mirrors < (options.coarse ? 1 : options.orders)) {
+  if (inside.mirrors < most_orders(options)) {
     ORIEL_TRY_VOID(draw_mirrors_in(within, inside, mirrored));
   } else {
     work.scene_pass.draw_reflected(within.context, mirrored);

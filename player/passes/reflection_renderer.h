@@ -56,6 +56,7 @@ struct MarkedReflector {
   GLint value = 0;        // in the stencil; 0: see-through
   std::size_t query = 0;  // first of kMaskQueries
   bool waits = false;     // for its maps: nothing of it is drawn
+  float worth = 0;  // of a frame that it filled: what the mirrors on the way leave of the light, and of the pixels
 };
 
 class ReflectionRenderer {

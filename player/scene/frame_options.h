@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "formats/assets/mover.h"
@@ -56,7 +57,8 @@ struct FrameOptions {
   Show show = Show::kAll;
   LightmapFilter lightmap_filter = LightmapFilter::kBilinear;
   Reflections reflections = Reflections::kChosen;
-  int orders = 2;            // mirrors on the way of a reflection, where the mirrored scene is drawn
+  std::optional<int> orders =
+      {};  // reflectors on the way of a reflection; none: kOrders, and on while mirrors keep the light
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
   bool fill = true;  // pixels that no map tells of; else they stay black. Not with Blur::kDistance

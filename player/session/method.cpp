@@ -19,8 +19,8 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
        "the mirrored scene",
        choice(out.frame.reflections, kReflections), Use::kEveryday, "reflections"},
       {"--orders", group,
-       "Mirrors on the way of a reflection, where the mirrored scene is drawn: 1 shows a mirror in a mirror as its "
-       "diffuse light only",
+       "Reflectors on the way of a reflection: 1 shows a mirror in a mirror as its diffuse light only. Without it: 2, "
+       "and on while all on the way are mirrors that leave half of the light",
        number(out.frame.orders, 1, 16), Use::kRare, "orders"},
       {"--maps", group,
        "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 shows none",

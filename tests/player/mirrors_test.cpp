@@ -88,6 +88,21 @@ TEST_F(Mirrors, FacingMirrorsShowEachOtherToTheLastOrder) {
   }
 }
 
+// Where nothing is asked for, mirrors that lose little go on past the second order, and those that lose half do not.
+TEST_F(Mirrors, GoOnWhileMostOfTheLightIsLeft) {
+  Pack pack = facing_mirrors();
+  const Camera camera = look_at({0.01f, 0.01f, 1}, {0, 0, 0}, 0.1f);  // nearly along the axis: no sky is met for long
+  const auto reflectors_drawn = [&](float reflectance, std::optional<int> orders) {
+    pack.fresnel_maps[0] = flat_reflectance(Vec3(reflectance));
+    FrameOptions options;
+    options.orders = orders;
+    return draw(pack, camera, 96, 72, options).stats.reflectors;
+  };
+  EXPECT_EQ(reflectors_drawn(0.49f, {}), reflectors_drawn(0.49f, 2));
+  EXPECT_EQ(reflectors_drawn(0.8f, {}), reflectors_drawn(0.8f, 3)) << "0.8 to the third is the last above a half";
+  EXPECT_GT(reflectors_drawn(0.95f, {}), reflectors_drawn(0.95f, 6));
+}
+
 // Unlit surfaces are as bright as the pack says that their white is.
 TEST_F(Mirrors, ShowUnlitSurfacesAsBrightAsThePackSays) {
   Pack pack = empty_pack();

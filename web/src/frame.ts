@@ -14,11 +14,14 @@ export const reflectorBits = 0x7f, seeThroughBit = 0x80;
 interface Frame { width: number; height: number; light: WebGLTexture; depth: WebGLTexture; target: WebGLFramebuffer; }
 interface Sum { texture: WebGLTexture; target: WebGLFramebuffer; }
 
-/** orders: of images in images, 0 is none; taps: of a kernel; largeOnly: no small reflectors, and no curved ones. */
-export interface FrameOptions { orders: number; taps: number; largeOnly: boolean; }
-export const wholeFrame: FrameOptions = { orders: 2, taps: 48, largeOnly: false };
-export const firstFrame: FrameOptions = { orders: 0, taps: 12, largeOnly: true };
-export const movingFrame: FrameOptions = { orders: 1, taps: 12, largeOnly: true };
+/**
+ * orders: reflectors on the way of a reflection, 0 is none; mirrors: as many, where all of them are mirrors that leave half of the
+ * light; taps: of a kernel; largeOnly: no small reflectors, and no curved ones.
+ */
+export interface FrameOptions { orders: number; mirrors: number; taps: number; largeOnly: boolean; }
+export const wholeFrame: FrameOptions = { orders: 2, mirrors: 16, taps: 48, largeOnly: false };
+export const firstFrame: FrameOptions = { orders: 0, mirrors: 0, taps: 12, largeOnly: true };
+export const movingFrame: FrameOptions = { orders: 1, mirrors: 1, taps: 12, largeOnly: true };
 
 /** Where the samples of a pixel lie, as most devices have four. */
 const pattern: [number, number][] = [[-0.125, -0.375], [0.375, -0.125], [-0.375, 0.125], [0.125, 0.375]];

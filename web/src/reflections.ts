@@ -59,6 +59,7 @@ export class Reflections {
       if (!screen || (options.largeOnly && target.share * shareOf(screen) < kLargeShare)) continue;
       const seeThrough = scene.isTransparent(reflector.material), left = target.reflectance * scene.reflectanceOf(reflector.material);
       if (!target.inFrame && (seeThrough || left < kLeastReflectance || left * target.share * shareOf(screen) < kLeastShown)) continue;
+      if (target.mirrors >= options.orders && (left < kMirroring || scene.kernel(reflector.material, options.taps).count > 1)) continue;
       if (!seeThrough && target.values + 1 >= reflectorBits) continue;
       const value = seeThrough ? 0 : ++target.values;
       this.drawMask(scene, reflector, view, value, target.inFrame);
@@ -155,7 +156,7 @@ export class Reflections {
       reflectance: target.reflectance * scene.reflectanceOf(r.material),
       share: (target.share * view.width * view.height) / (outer.width * outer.height),
     };
-    if (inside.mirrors < options.orders) {
+    if (inside.mirrors < options.mirrors) {
       this.renderer.drawDepth(scene, view, shown);
       const marked = this.drawMasks(scene, inside, options), curved = this.curved.draw(scene, inside, options);
       this.renderer.drawReflected(scene, view, shown, dark, new Set([...marked.map((m) => m.reflector.material), ...curved.materials]));
