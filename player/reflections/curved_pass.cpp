@@ -20,7 +20,7 @@ enum CurvedUnit {
 
 // Radius (tangent) that holds half of a lobe, from which on its taps find their own distances: a roughness of about
 // 0.3.
-constexpr float kWideLobe = 0.1f;
+constexpr float kWideLobe = 0.03f;
 
 void draw_reflector(const FrameContext& context, const GpuCurvedReflector& reflector) {
   for (const DrawRange& range : context.scene.bind_curved(reflector))

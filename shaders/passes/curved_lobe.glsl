@@ -28,18 +28,22 @@ vec3 light_along(vec3 origin, vec3 direction, float inverse_distance, float spre
 }
 
 const int kTapSteps = 2;
+const float kTapSphere = 1.5;  // of the surface's distance from the centre
 
 // The inverse distance at which a tap meets something: where it leaves the sphere around the map's centre on which lies what the map
-// shows in the direction of the last guess.
+// shows in the direction of the last guess. What the map shows nearer to its centre than the surface is, or little further, is no
+// sphere that the tap could leave: it is taken as far away as kTapSphere tells, else narrow sides of boxes looked like crumpled foil.
 float tap_distance(vec3 origin, vec3 direction) {
   float along = dot(origin, direction), apart = dot(origin, origin) - along * along;
-  float inverse = surround_distance(u_inverse_distance, u_size, direction).x;
-  for (int i = 0; i < kTapSteps; ++i) {
-    float seen = surround_distance(u_inverse_distance, u_size, normalize(direction + origin * inverse)).x;
+  float least = kTapSphere * length(origin);
+  vec3 way = direction;
+  float inverse = 0.0;
+  for (int i = 0; i <= kTapSteps; ++i) {
+    float seen = surround_distance(u_inverse_distance, u_size, way).x;
     if (!(seen > 0.0)) return 0.0;  // the sky
-    float radius = 1.0 / seen;
-    float way = sqrt(max(radius * radius - apart, 0.0)) - along;
-    inverse = 1.0 / max(way, 1e-3 * radius);
+    float radius = max(1.0 / seen, least);
+    inverse = 1.0 / (sqrt(radius * radius - apart) - along);
+    way = normalize(direction + origin * inverse);
   }
   return inverse;
 }

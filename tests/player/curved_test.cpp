@@ -325,18 +325,55 @@ TEST_F(CurvedFrames, AMirrorBallShowsTheRoom) {
   std::printf("mirror ball: %d pixels, PSNR %.1f dB\n", pixels, psnr);
 }
 
+Pack glossy(Pack pack) {
+  BrdfKernel& kernel = pack.kernels[0];
+  kernel.size = 9;
+  kernel.alpha = 0.2f;
+  kernel.half_extent = 0.5f;
+  kernel.weights.assign(81, 1.0f / 81);
+  return pack;
+}
+
+// The largest difference of neighbours in the middle of a picture of 120 by 100.
+float roughest(const Picture& p) {
+  float most = 0;
+  for (int y = 30; y < 70; ++y)
+    for (int x = 40; x < 80; ++x) most = std::max(most, glm::length(p.at(x, y) - p.at(x + 1, y)));
+  return most;
+}
+
+// A flat side beside the map's centre, which it faces away from little more than towards.
+Pack side_pack(const Vec3& centre, const SurroundMap& map) {
+  Pack pack = glossy(ball_pack({}, map));
+  for (std::size_t v = 0; v < pack.mesh.positions.size(); ++v) {
+    const Vec3 n = pack.mesh.normals[v];
+    pack.mesh.positions[v] = centre + Vec3(0.6f + 0.4f * n.x, 0.4f * n.y, 0.02f);
+  }
+  std::fill(pack.mesh.normals.begin(), pack.mesh.normals.end(), Vec3(0, 0, 1));
+  return pack;
+}
+
+// Where a map shows things that are nearer to its centre than the surface that it is for, no distance fits: light is
+// shown without creases, whatever those distances are.
+TEST_F(CurvedFrames, WhatLiesWithinTheSurfaceMakesNoCreases) {
+  const Vec3 centre(0, 1.5f, 0);
+  const Camera camera = looking_at(centre + Vec3(1.6f, 0, 1), centre + Vec3(0.6f, 0, 0));
+  SurroundMap map = room_map(centre, 128, [](const Vec3& at) { return Vec3(10 + 2 * at.x + 3 * at.y); });
+  FrameOptions options;
+  options.show = Show::kMK;
+  const float smooth = roughest(draw(side_pack(centre, map), camera, 120, 100, options));
+  ASSERT_GT(smooth, 0);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> inverse(2, 20);
+  for (float& i : map.inverse_distance) i = inverse(random);
+  const float rough = roughest(draw(side_pack(centre, map), camera, 120, 100, options));
+  EXPECT_LT(rough, 2 * smooth);
+}
+
 // A lobe shows the mean of the room weighted by it: for a room of even light that light, and less contrast otherwise.
 TEST_F(CurvedFrames, ALobeBlurs) {
   const Ball ball;
   const Camera camera = looking_at({0.1f, 1.5f, 1.9f}, ball.centre);
-  const auto glossy = [](Pack pack) {
-    BrdfKernel& kernel = pack.kernels[0];
-    kernel.size = 9;
-    kernel.alpha = 0.2f;
-    kernel.half_extent = 0.5f;
-    kernel.weights.assign(81, 1.0f / 81);
-    return pack;
-  };
   FrameOptions options;
   options.show = Show::kMK;
   const Picture even = draw(glossy(ball_pack(ball, room_map(ball.centre, 64, [](const Vec3&) { return Vec3(7); }))),

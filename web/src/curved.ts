@@ -8,7 +8,7 @@ import type { Device, GpuCurved, GpuScene } from './scene';
 import type { RasterState } from './gl';
 import type { Vec3 } from './vec';
 
-const reflectorBits = 0x7f, seeThroughBit = 0x80, kWideLobe = 0.1;
+const reflectorBits = 0x7f, seeThroughBit = 0x80, kWideLobe = 0.03;
 
 interface Canvas {
   width: number; height: number; places: WebGLTexture; normals: WebGLTexture; depth: WebGLTexture; light: WebGLTexture;
