@@ -135,27 +135,34 @@ class DetailMaker {
       for (CellCandidate cell : found)
         if (cell.page == p && levels[p][cell.place] > 0)
           if (const auto missed = grid.missed(cell.place % width, cell.place / width)) {
-            cell.error = *missed / cell.light * cell.weight;
-            cell.gathers = cell.gathers && reflected_missed(p, cell.place) / cell.light * cell.weight > goal_.error;
+            const Told told = points_tell(p, cell.place);
+            cell.error = std::sqrt(*missed * *missed + told.uneven) / cell.light * cell.weight;
+            cell.gathers = cell.gathers && told.reflected_missed / cell.light * cell.weight > goal_.error;
             measured.push_back(cell);
           }
     }
     return measured;
   }
 
-  // What texels miss of reflected light in a cell, as its points tell: rms beyond their noise, of luminance.
-  double reflected_missed(std::uint32_t page, std::uint32_t place) const {
+  // Of luminance. Next to a lamp light varies within the points so much that the filter takes it for noise.
+  struct Told {
+    double reflected_missed = 0;  // what texels miss of reflected light in a cell: rms beyond the points' noise
+    double uneven = 0;            // mean of PointLight::uneven
+  };
+  Told points_tell(std::uint32_t page, std::uint32_t place) const {
     const PointLight& lit = *points_[0];
     const std::uint32_t width = light_.pages[page].width;
-    double squares = 0, count = 0;
+    double squares = 0, uneven = 0, count = 0;
     for (std::uint32_t j = 0; j <= 2; ++j)
       for (std::uint32_t i = 0; i <= 2; ++i) {
         const std::uint32_t point = lit.texels.at(page, static_cast<int>(DetailPoints::fine(place % width, i, 2)),
                                                   static_cast<int>(DetailPoints::fine(place / width, j, 2)));
         if (point == kNoTexel || lit.texels.visible[point] == 0) continue;
         squares += std::pow(double{lit.reflected_change[point]}, 2) - double{lit.reflected_noise[point]}, ++count;
+        uneven += double{lit.uneven[point]};
       }
-    return std::sqrt(std::max(0.0, squares) / std::max(1.0, count));
+    count = std::max(1.0, count);
+    return {std::sqrt(std::max(0.0, squares) / count), uneven / count};
   }
 
   // Over the pixels that eyes see. An edge through a cell is missed in half the area with each further level. What no

@@ -186,12 +186,13 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   BookedLight booked = filter_groups(texels, graph, LightSums{direct, gathered}, task.options.filter, context);
   result.booked = add_beside(known, texels, points.side, std::move(booked));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
-  result.light.resize(n), result.variance.resize(n), result.reflected_change.resize(n),
-      result.reflected_noise.resize(n);
+  result.light.resize(n), result.variance.resize(n), result.uneven.resize(n);
+  result.reflected_change.resize(n), result.reflected_noise.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     if (texels.visible[i] == 0) continue;
     result.light[i] = glm::max(lit.value[i] + indirect.value[i] + beside_at(known, texels, i, points.side), Vec3(0));
     result.variance[i] = lit.variance[i] + indirect.variance[i];
+    result.uneven[i] = luminance(direct.uneven[i]);
     if (!which[i]) continue;
     result.reflected_change[i] = luminance(indirect.value[i] - known_reflected(known, texels, i, points.side));
     const Vec3 of_texels = between_texels(known, texels, i, points.side,

@@ -267,6 +267,30 @@ TEST(Detail, ShowsTheEdgeOfTheSunsShadow) {
   EXPECT_NEAR(shown(2.05f) - shown(2.01f), 1000, 30) << "within a tenth of a texel on each side of the edge";
 }
 
+// A strip of light 3 cm before a wall, half as far below a ceiling: light on that varies a hundredfold within a point
+// of two steps. Behind the strip it is dark, all along.
+TEST(Detail, HasNoGapsBesideAStrip) {
+  SceneParts parts;
+  const auto matt = parts.diffuse(Vec3(0.5f));
+  parts.quad("ceiling", matt, {0, 2.9f, 0}, {20, 0, 0}, {0, 0, 1});
+  parts.quad("wall", matt, {0, 0, 0}, {20, 0, 0}, {0, 2.9f, 0});
+  parts.quad("strip", parts.diffuse(Vec3(0), Vec3(12000)), {0.2f, 2.85f, 0.031f}, {19.6f, 0, 0}, {0, 0.03f, 0});
+  Listed room(parts.finish(), 0.108f);
+  RadiosityOptions options{.estimator = Estimator::kCached, .samples = 64, .error = 0.02, .fit_texels = true};
+  options.verify = 0, options.detail = kMostDetail;
+  const Radiosity light = *bake_radiosity({room.transport(), room.atlas, room.map}, options, room.context);
+  const auto shown = [&](float x, float z) {
+    const Hit hit = room.accel->intersect({{x, 2.89f, z}, {0, 1, 0}, 1});
+    const auto& uv = room.atlas.uv[hit.triangle];
+    return irradiance_at(light.pages[0],
+                         uv[0] + hit.barycentric.x * (uv[1] - uv[0]) + hit.barycentric.y * (uv[2] - uv[0]))
+        .g;
+  };
+  int places = 0, bright = 0;
+  for (float x = 0.5f; x < 19.5f; x += 0.1f) ++places, bright += shown(x, 0.015f) > 0.5f * shown(x, 0.06f);
+  EXPECT_LE(bright, places / 50);
+}
+
 TEST(Detail, BringsShadowsNearerToTheTruth) {
   Listed floor(shadow_of_a_board(), 0.13f);
   RadiosityOptions options{.estimator = Estimator::kCached, .samples = 4096, .error = 0.02, .fit_texels = true};
