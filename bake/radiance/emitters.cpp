@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bake/jobs/parallel.h"
+#include "bake/radiance/punctual_emitter.h"
 #include "bake/radiance/reproject.h"
 #include "bake/radiance/sun_emitter.h"
 #include "bake/trace/polygon_light.h"
@@ -94,7 +95,9 @@ Nodes lay_out(const Accel& accel, const FoundReflector& found, float node_m, std
 
 struct LightOnReflector {
   std::size_t light = 0;
-  std::vector<Emitter> polygons;
+  PolygonLight lamp;
+  const Light* punctual = nullptr;  // that the lamp stands for
+  std::vector<Emitter> polygons = {};
   double worth = 0;   // luminous irradiance on the covered nodes, visibility counted
   double parted = 0;  // of it, what lobes that see less than the whole lamp may get wrong
 };
@@ -135,21 +138,24 @@ class VisibilityBaker {
     return over > 0 ? static_cast<float>(seen / over) : 0;
   }
 
-  // By node. stream: the light's polygon, below kMaxReflectorEmitters times the number of lights.
-  std::vector<float> shares(const Emitter& polygon, const Nodes& nodes, const Vec3& normal,
-                            std::uint64_t stream) const {
+  // Of one of a lamp's polygons, by node; of a punctual light what it sends there beside what the lamp does.
+  std::vector<float> shares(const LightOnReflector& on, std::size_t polygon, const Nodes& nodes,
+                            const Vec3& normal) const {
     std::vector<float> shares;
-    stream *= nodes.points.size();
-    for (const Vec3& node : nodes.points) shares.push_back(share(polygon, node, normal, stream++));
+    std::uint64_t stream = (on.light * kMaxReflectorEmitters + polygon) * nodes.points.size();
+    for (const Vec3& node : nodes.points) {
+      shares.push_back(share(on.polygons[polygon], node, normal, stream++));
+      if (on.punctual) shares.back() *= fade_of_square(accel_.scene(), *on.punctual, on.lamp, node);
+    }
     return shares;
   }
 
   // lobe_width: α of the reflector's lobe.
-  void weigh(const Nodes& nodes, const Vec3& normal, const PolygonLight& light, double lobe_width,
-             LightOnReflector& on) const {
+  void weigh(const Nodes& nodes, const Vec3& normal, double lobe_width, LightOnReflector& on) const {
+    const PolygonLight& light = on.lamp;
     std::vector<double> mean(nodes.points.size(), 0.0);
     for (std::size_t p = 0; p < on.polygons.size(); ++p) {
-      const std::vector<float> seen = shares(on.polygons[p], nodes, normal, on.light * kMaxReflectorEmitters + p);
+      const std::vector<float> seen = shares(on, p, nodes, normal);
       for (std::size_t i = 0; i < seen.size(); ++i) mean[i] += seen[i] / static_cast<double>(on.polygons.size());
     }
     // Of the mirror direction at normal incidence: one over the lobe's density there, D / 4 = 1 / (4 π α²).
@@ -229,43 +235,39 @@ class EmitterChooser {
       if (auto sun = sun_polygon(accel.scene(), light)) lights_.push_back(std::move(*sun));
   }
 
-  const std::vector<PolygonLight>& lights() const { return lights_; }
-
   // The lights that would light the reflector most if nothing were in the way, by what they are worth.
   Result<std::vector<LightOnReflector>> lights_on(const FoundReflector& found, double lobe_width,
                                                   LeftIn& left_in) const {
     const Nodes nodes = lay_out(accel_, found, options_.choice_node_m, options_.max_choice_nodes);
     const Vec3 normal(found.reflector.pack_from_reflector[2]);
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t l = 0; l < lights_.size(); ++l) {
-      double sum = 0;
-      for (const Vec3& node : nodes.points) sum += polygon_irradiance(lights_[l], {node, normal, normal});
-      if (sum > 0) order.emplace_back(-sum * luminance(lights_[l].radiance), l);
-    }
-    left_in.too_fine = std::erase_if(
-        order, [&](const auto& entry) { return lights_[entry.second].triangles.size() > kMaxReflectorEmitters; });
-    std::sort(order.begin(), order.end());
-    left_in.too_faint = order.size() - std::min<std::size_t>(order.size(), options_.max_lights);
-    order.resize(order.size() - left_in.too_faint);
-    std::vector<LightOnReflector> out(order.size());
-    ORIEL_TRY_VOID(parallel_for(context_, "", order.size(), [&](std::size_t i) {
-      const PolygonLight& light = lights_[order[i].second];
-      out[i].light = order[i].second;
-      out[i].polygons = polygons_of(light);
-      baker_.weigh(nodes, normal, light, lobe_width, out[i]);
+    std::vector<LightOnReflector> out = all_lamps({normal, nodes.points});
+    left_in.too_fine =
+        std::erase_if(out, [](const LightOnReflector& on) { return on.lamp.triangles.size() > kMaxReflectorEmitters; });
+    for (LightOnReflector& on : out)
+      for (const Vec3& node : nodes.points)
+        on.worth += polygon_irradiance(on.lamp, {node, normal, normal}) * luminance(on.lamp.radiance);
+    std::erase_if(out, [](const LightOnReflector& on) { return !(on.worth > 0); });
+    std::ranges::stable_sort(out, std::greater(), &LightOnReflector::worth);
+    left_in.too_faint = out.size() - std::min<std::size_t>(out.size(), options_.max_lights);
+    out.resize(out.size() - left_in.too_faint);
+    ORIEL_TRY_VOID(parallel_for(context_, "", out.size(), [&](std::size_t i) {
+      out[i].worth = 0;
+      out[i].polygons = polygons_of(out[i].lamp);
+      baker_.weigh(nodes, normal, lobe_width, out[i]);
     }));
     std::stable_sort(out.begin(), out.end(),
                      [](const LightOnReflector& a, const LightOnReflector& b) { return a.worth > b.worth; });
     return out;
   }
 
-  // What the reflector's emitters are seen of, on the fine grid. polygons: of all lights, with their streams.
-  Status bake_visibility(std::span<const std::pair<Emitter, std::uint64_t>> polygons, FoundReflector& found) const {
+  // What the reflector's emitters are seen of, on the fine grid: of lamps the polygons, each by its number.
+  Status bake_visibility(std::span<const std::pair<const LightOnReflector*, std::size_t>> polygons,
+                         FoundReflector& found) const {
     Reflector& r = found.reflector;
     const Nodes nodes = lay_out(accel_, found, options_.node_m, options_.max_nodes);
     std::vector<std::vector<float>> seen(polygons.size());
     ORIEL_TRY_VOID(parallel_for(context_, "", polygons.size(), [&](std::size_t p) {
-      seen[p] = baker_.shares(polygons[p].first, nodes, Vec3(r.pack_from_reflector[2]), polygons[p].second);
+      seen[p] = baker_.shares(*polygons[p].first, polygons[p].second, nodes, Vec3(r.pack_from_reflector[2]));
       fill_uncovered(nodes, seen[p]);
     }));
     for (const std::vector<float>& shares : seen)
@@ -276,6 +278,17 @@ class EmitterChooser {
   }
 
  private:
+  // The scene's, and what points and spots are to that plane.
+  std::vector<LightOnReflector> all_lamps(const LitPlane& plane) const {
+    std::vector<LightOnReflector> all;
+    for (const PolygonLight& light : lights_) all.push_back({.light = all.size(), .lamp = light});
+    const Scene& scene = accel_.scene();
+    for (std::size_t l = 0; l < scene.lights.size(); ++l)
+      if (auto square = punctual_square(scene, scene.lights[l], plane))
+        all.push_back({.light = lights_.size() + l, .lamp = std::move(*square), .punctual = &scene.lights[l]});
+    return all;
+  }
+
   const Accel& accel_;
   const EmitterOptions& options_;
   Context& context_;
@@ -299,7 +312,7 @@ Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Con
     const double most_parted = found.way == ReflectorWay::kGeometry ? kMostPartedOfGeometry : kMostParted;
     double total = 0;
     for (const LightOnReflector& l : on) total += l.worth;
-    std::vector<std::pair<Emitter, std::uint64_t>> chosen;
+    std::vector<std::pair<const LightOnReflector*, std::size_t>> chosen;
     for (const LightOnReflector& l : on) {
       if (!(l.worth > kLeastShare * total)) continue;
       if (l.parted > most_parted * l.worth) {
@@ -310,14 +323,15 @@ Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Con
         ++left_in.too_many;
         continue;
       }
-      const auto [at, is_new] = first_emitter.try_emplace(l.light, static_cast<std::uint32_t>(emitters.size()));
-      if (is_new) emitters.insert(emitters.end(), l.polygons.begin(), l.polygons.end());
+      auto first = static_cast<std::uint32_t>(emitters.size());
+      // Squares of punctual lights face the reflector that they are made for.
+      if (l.punctual == nullptr) first = first_emitter.try_emplace(l.light, first).first->second;
+      if (first == emitters.size()) emitters.insert(emitters.end(), l.polygons.begin(), l.polygons.end());
       for (std::uint32_t p = 0; p < l.polygons.size(); ++p) {
-        r.emitters.push_back(at->second + p);
-        chosen.emplace_back(l.polygons[p], l.light * kMaxReflectorEmitters + p);
+        r.emitters.push_back(first + p);
+        chosen.emplace_back(&l, p);
       }
-      const auto& triangles = chooser.lights()[l.light].triangles;
-      found.emitters.insert(found.emitters.end(), triangles.begin(), triangles.end());
+      found.emitters.insert(found.emitters.end(), l.lamp.triangles.begin(), l.lamp.triangles.end());
     }
     std::sort(found.emitters.begin(), found.emitters.end());
     if (!chosen.empty()) ORIEL_TRY_VOID(chooser.bake_visibility(chosen, found));

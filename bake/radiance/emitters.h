@@ -19,7 +19,8 @@ struct EmitterOptions {
   std::uint32_t max_lights = 64;  // of a reflector whose visibility is computed: those that would light it most
 };
 
-// Lamps are the scene's flat ones and, since no map shows it, the sun (sun_emitter.h); points and spots are none.
+// Lamps are the scene's flat ones and, since no map shows them, the sun (sun_emitter.h), points and spots
+// (punctual_emitter.h).
 // For each reflector with a lobe the lamps that light it most are left out of its maps: at most kMaxReflectorEmitters
 // polygons. Sets the reflectors' emitters, and in Reflector the emitters with their visibility; appends to `emitters`
 // what they refer to.

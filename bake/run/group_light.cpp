@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "bake/radiance/punctual_emitter.h"
 #include "bake/radiance/sun_emitter.h"
 #include "bake/scene/shade.h"
 #include "bake/scene/sky.h"
@@ -70,8 +71,9 @@ std::uint32_t group_of_corners(const Scene& scene, std::span<const Vec3> corners
     if (same > most) most = same, group = surface.light_group;
   }
   if (group != kNone) return group;
-  const std::uint32_t sun = sun_of_corners(scene, {corners.begin(), corners.end()});
-  return sun == ~0u ? kNone : scene.lights[sun].light_group;
+  std::uint32_t light = sun_of_corners(scene, {corners.begin(), corners.end()});
+  if (light == ~0u) light = punctual_of_corners(scene, corners);
+  return light == ~0u ? kNone : scene.lights[light].light_group;
 }
 
 std::uint32_t group_of(const Scene& scene, const BrightLight& light) {

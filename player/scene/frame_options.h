@@ -57,8 +57,8 @@ struct FrameOptions {
   Show show = Show::kAll;
   LightmapFilter lightmap_filter = LightmapFilter::kBilinear;
   Reflections reflections = Reflections::kChosen;
-  std::optional<int> orders =
-      {};  // reflectors on the way of a reflection; none: kOrders, and on while mirrors keep the light
+  // Reflectors on the way of a reflection; none: two, and on while all of them are mirrors that keep half of the light.
+  std::optional<int> orders = {};
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
   bool fill = true;  // pixels that no map tells of; else they stay black. Not with Blur::kDistance

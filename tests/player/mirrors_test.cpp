@@ -103,6 +103,26 @@ TEST_F(Mirrors, GoOnWhileMostOfTheLightIsLeft) {
   EXPECT_GT(reflectors_drawn(0.95f, {}), reflectors_drawn(0.95f, 6));
 }
 
+// n mirrors that all see each other take n^d + 1 images to depth d with the frame's own (Diefenbach & Badler 1997,
+// equation 8), for the depths of their table 3: one of each mirror, and in that one of each other mirror.
+TEST_F(Mirrors, TakeAsManyImagesAsDiefenbachCounts) {
+  Pack pack = empty_pack();
+  const Camera camera = look_at({0.05f, 0.02f, 0.6f}, {0, 0, -2}, 1.6f);
+  const std::array<std::array<Vec3, 3>, 3> walls{{{Vec3(-1, -1, -2), Vec3(2, 0, 0), Vec3(0, 2, 0)},   // back
+                                                  {Vec3(-1, -1, 0), Vec3(0, 0, -2), Vec3(0, 2, 0)},   // left
+                                                  {Vec3(1, -1, -2), Vec3(0, 0, 2), Vec3(0, 2, 0)}}};  // right
+  for (std::size_t n = 1; n <= walls.size(); ++n) {
+    const auto& [corner, right, up] = walls[n - 1];
+    add_bare_mirror(pack, corner, right, up);
+    pack.fresnel_maps[0] = flat_reflectance(Vec3(1));
+    for (const int depth : {1, 2}) {
+      FrameOptions options;
+      options.orders = depth;
+      EXPECT_EQ(draw(pack, camera, 160, 120, options).stats.reflectors, depth == 1 ? n : n * n) << n << ", " << depth;
+    }
+  }
+}
+
 // Unlit surfaces are as bright as the pack says that their white is.
 TEST_F(Mirrors, ShowUnlitSurfacesAsBrightAsThePackSays) {
   Pack pack = empty_pack();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bake/radiance/capture.h"
+#include "bake/radiance/punctual_emitter.h"
 #include "bake/radiance/reproject.h"
 #include "bake/radiance/sun_emitter.h"
 #include "bake/radiance/views.h"
@@ -108,6 +109,41 @@ TEST(Emitters, TheSunIsOneOfThem) {
     const std::size_t e = &far - room.emitters.data();
     EXPECT_GT(room.visibility(room.reflectors[0].reflector.emitters[0] == e ? 0 : 1, {-1.9f, -1.9f}), 0.99f);
   }
+}
+
+// Nor does one show points and spots: squares in their place, whose share at each node is what the light sends there.
+TEST(Emitters, PointsAndSpotsAreSomeOfThem) {
+  LampRoom room;
+  Light point, spot;
+  point.position = {-1, 1.5f, 0.3f}, point.intensity = {90, 80, 70};
+  spot.type = LightType::kSpot, spot.position = {1, 2, 0}, spot.direction = {0, -1, 0},
+  spot.intensity = {300, 400, 500};
+  spot.inner_cone_rad = 0.2f, spot.outer_cone_rad = 0.4f;
+  room.parts.box("over the floor", 2, {-1.05f, 0.5f, 0.25f}, {-0.95f, 0.6f, 0.35f});
+  room.parts.scene().lights = {point, spot};
+  room.scene = room.parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  room.run(*accel);
+  const auto& on_floor = room.reflectors[0].reflector.emitters;
+  ASSERT_EQ(on_floor.size(), 3u) << "and the lamp";
+  const auto light_at = [&](std::uint32_t light, const Vec2& at) {  // cd towards a place of the floor, as it is shown
+    for (std::size_t e = 0; e < on_floor.size(); ++e) {
+      const Emitter& square = room.emitters[on_floor[e]];
+      if (punctual_of_corners(room.scene, square.corners) != light) continue;
+      const Vec3 facing = glm::cross(square.corners[1] - square.corners[0], square.corners[3] - square.corners[0]);
+      const Vec3 way = glm::normalize(Vec3(at.x, 0, -at.y) - room.scene.lights[light].position);
+      return room.visibility(e, at) * square.radiance.g * glm::dot(facing, way);
+    }
+    return -1.0f;
+  };
+  for (const Vec2& at : {Vec2(0.5f, 1), Vec2(1.5f, -1.5f), Vec2(-1.5f, 1)})
+    EXPECT_NEAR(light_at(0, at) / 80, 1, 0.02) << at.x << ", " << at.y;
+  EXPECT_EQ(light_at(0, {-1, -0.25f}), 0) << "in the shade of the box";
+  EXPECT_NEAR(light_at(1, {1, 0}) / 400, 1, 0.02);
+  EXPECT_GT(light_at(1, {1.625f, 0}), 20) << "in the cone's rim";
+  EXPECT_LT(light_at(1, {1.625f, 0}), 380);
+  EXPECT_EQ(light_at(1, {-0.5f, 0}), 0) << "beyond the cone";
 }
 
 TEST(Emitters, AMirrorKeepsThem) {
