@@ -169,9 +169,13 @@ TEST_F(BakeOutcome, SigtermEndsItWithinTenSeconds) {
             static_cast<char*>(nullptr));
     ::_exit(98);
   }
-  for (int i = 0; i < 1200 && log().find("\"stage\":\"gather\",\"fraction\":1") == std::string::npos; ++i)
-    ::usleep(50000);
-  ::usleep(300000);
+  // Direct light after what is gathered: the first light is there, and is refined.
+  const auto refines = [&] {
+    const std::string text = log();
+    const auto gathered = text.find("\"stage\":\"gather\",\"fraction\":1");
+    return gathered != std::string::npos && text.find("\"stage\":\"direct light\"", gathered) != std::string::npos;
+  };
+  for (int i = 0; i < 6000 && !refines(); ++i) ::usleep(10000);
   EXPECT_EQ(report()["status"], "running");
   const auto asked = std::chrono::steady_clock::now();
   ASSERT_EQ(::kill(child, SIGTERM), 0);

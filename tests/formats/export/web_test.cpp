@@ -77,7 +77,8 @@ TEST(WebFolder, NamesItsFilesByTheirHashes) {
   EXPECT_THAT(page, HasSubstr("default-src 'none'; script-src 'self'"));
   EXPECT_THAT(page, Not(HasSubstr("{{")));
   EXPECT_THAT(page, HasSubstr(integrity_of(bytes_of_text(manifest))));
-  for (const auto& piece : nlohmann::json::parse(manifest)["pieces"]) {
+  const nlohmann::json told = nlohmann::json::parse(manifest);
+  for (const auto& piece : told["pieces"]) {
     const auto bytes = read_file(folder.path() / "a" / "b" / piece["file"].get<std::string>());
     ASSERT_TRUE(bytes);
     EXPECT_EQ(integrity_of(*bytes), piece["integrity"]);
