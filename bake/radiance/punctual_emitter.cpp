@@ -9,8 +9,8 @@
 namespace oriel {
 namespace {
 
-constexpr float kSide = 0.01f;     // of its distance from the plane
-constexpr float kLeast_m = 0.01f;  // from the plane: what is nearer lies on it
+constexpr float kSide = 0.01f;   // of its distance from the plane
+constexpr float kLeast = 0.01f;  // metres from the plane: what is nearer lies on it
 
 // Cosine at a square of that normal.
 float cosine_towards(const Vec3& normal, const Vec3& from, const Vec3& point) {
@@ -22,7 +22,7 @@ float cosine_towards(const Vec3& normal, const Vec3& from, const Vec3& point) {
 std::optional<PolygonLight> punctual_square(const Scene& scene, const Light& light, const LitPlane& plane) {
   if (light.type == LightType::kDirectional || plane.nodes.empty()) return std::nullopt;
   const float over = glm::dot(light.position - plane.nodes[0], plane.normal);
-  if (!(over > kLeast_m)) return std::nullopt;
+  if (!(over > kLeast)) return std::nullopt;
   Vec3 most(0);
   for (const Vec3& node : plane.nodes) {
     const Vec3 towards = glm::normalize(node - light.position);
