@@ -99,7 +99,9 @@ TEST_F(Live, AHundredEditsOfWhichTwentyAreBroken) {
   std::printf("%d edits broken of 100; seen at most %.3f s after saving; %.1f MiB more than after 20\n", broken,
               slowest_s, (static_cast<double>(resident()) - static_cast<double>(held)) / (1 << 20));
   EXPECT_EQ(broken, 20);
+#ifndef __SANITIZE_ADDRESS__  // which holds what is freed for a while
   EXPECT_LT(resident(), held + (std::size_t{8} << 20));
+#endif
 }
 
 // What a file is changed by, and what is kept then.
