@@ -183,7 +183,8 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
     stats.reflected_pixels += count.pixels;
     stats.holes += count.counted;
   }
-  if (blurs && !even && !maps) timed(clock, Pass::kFill, [&] { convolve_pass_.cut(inner.context, image); });
+  const gpu::Texture2d& depth = target.frame != nullptr ? target.frame->depth : target.image->depth;
+  if (blurs && !even && !maps) timed(clock, Pass::kFill, [&] { convolve_pass_.cut(inner.context, image, depth); });
   if ((maps && options.fill) || (blurs && !even))
     timed(clock, Pass::kFill, [&] { fill_pass_.draw(rect, image.target, blurs && !even, stats); });
   if (image.even) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw_even(inner.context, image); });

@@ -29,8 +29,9 @@ NdcRect in_reduced_view(const NdcRect& screen, const View& view, const View& red
 class ConvolvePass {
  public:
   static Result<ConvolvePass> create(gpu::Dialect dialect);
-  // Pixels beside the reflector (its bounds) become holes of target.sharp: of mirrored geometry, which knows no edge.
-  void cut(const FrameContext& context, const ReflectedImage& image) const;
+  // Pixels beside the reflector (its bounds) become holes of target.sharp where something stands before its plane: of
+  // mirrored geometry, which knows no edge. depth: of what the reflector is seen in, context.view.
+  void cut(const FrameContext& context, const ReflectedImage& image, const gpu::Texture2d& depth) const;
   // target.filled, all levels, to target.blurred.
   void draw(const FrameContext& context, const ReflectedImage& image) const;
   // The image, which is of the context's view, to target.blurred by one kernel.

@@ -121,8 +121,8 @@ TEST_F(Blurred, BesideAWallAtItsEdgeAReflectorShowsNothingOfWhatLiesBehind) {
   pack.materials.resize(3);
   pack.materials[1].emission = kRed;
   pack.materials[2].emission = {0, 0, 50};
-  add_quad(pack, {1, -1, 0}, {0, 0, 0.3f}, {0, 2, 0}, 1, -1);
-  add_quad(pack, {1.02f, -1, 0}, {0, 0, 0.3f}, {0, 2, 0}, 2, -1);
+  add_quad(pack, {1, -1, 0}, {0, 0, 1.5f}, {0, 2, 0}, 1, -1);
+  add_quad(pack, {1.02f, -1, 0}, {0, 0, 1.5f}, {0, 2, 0}, 2, -1);
   Camera camera = camera_at({-0.9f, 0, 1}, {0.8f, 0, 0});
   camera.up = {0.3f, 1, 0};  // its edge is no edge of the image
   const Picture p = draw_mk(pack, camera);
@@ -131,6 +131,33 @@ TEST_F(Blurred, BesideAWallAtItsEdgeAReflectorShowsNothingOfWhatLiesBehind) {
     for (int x = 0; x < kWidth; ++x) red = std::max(red, p.at(x, y).x), blue = std::max(blue, p.at(x, y).z);
   EXPECT_GT(red, 0.9f * kRed.x);
   EXPECT_LT(blue, 0.01f * kRed.x);
+}
+
+// Past a free edge its lobes see what there is: half of a table's top shows what the whole one does, up to its edge.
+TEST_F(Blurred, AFreeEdgeChangesNothing) {
+  Pack pack = blurring_pack(0.3f, {}, nullptr);
+  pack.materials.resize(3);
+  pack.materials[1].emission = kRed;
+  pack.materials[2].emission = {0, 0, 50};
+  add_quad(pack, {3, -2, 0.1f}, {0, 0, 4}, {0, 2, 0}, 1, -1);
+  add_quad(pack, {3, 0, 0.1f}, {0, 0, 4}, {0, 2, 0}, 2, -1);
+  Camera camera = camera_at({-1.5f, 0, 0.4f}, {0, 0, 0});
+  camera.up = {0, 0, 1};
+  const Picture whole = draw_mk(pack, camera);
+  Reflector& half = pack.reflectors[0];
+  half.upper.x = -0.2f;
+  for (Vec3& p : pack.mesh.positions)
+    if (p.z == 0) p.x = std::min(p.x, -0.2f);
+  const Picture part = draw_mk(pack, camera);
+  int seen = 0, off = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      if (part.at(x, y) == Vec3(0)) continue;
+      ++seen;
+      off += glm::length(part.at(x, y) - whole.at(x, y)) > 0.02f * kRed.x;
+    }
+  EXPECT_GT(seen, 2000);
+  EXPECT_LT(off, seen / 50);
 }
 
 }  // namespace
