@@ -240,13 +240,7 @@ class EmitterChooser {
                                                   LeftIn& left_in) const {
     const Nodes nodes = lay_out(accel_, found, options_.choice_node_m, options_.max_choice_nodes);
     const Vec3 normal(found.reflector.pack_from_reflector[2]);
-    std::vector<LightOnReflector> out = all_lamps({normal, nodes.points});
-    left_in.too_fine =
-        std::erase_if(out, [](const LightOnReflector& on) { return on.lamp.triangles.size() > kMaxReflectorEmitters; });
-    for (LightOnReflector& on : out)
-      for (const Vec3& node : nodes.points)
-        on.worth += polygon_irradiance(on.lamp, {node, normal, normal}) * luminance(on.lamp.radiance);
-    std::erase_if(out, [](const LightOnReflector& on) { return !(on.worth > 0); });
+    std::vector<LightOnReflector> out = lamps_before({normal, nodes.points}, left_in);
     std::ranges::stable_sort(out, std::greater(), &LightOnReflector::worth);
     left_in.too_faint = out.size() - std::min<std::size_t>(out.size(), options_.max_lights);
     out.resize(out.size() - left_in.too_faint);
@@ -278,15 +272,25 @@ class EmitterChooser {
   }
 
  private:
-  // The scene's, and what points and spots are to that plane.
-  std::vector<LightOnReflector> all_lamps(const LitPlane& plane) const {
-    std::vector<LightOnReflector> all;
-    for (const PolygonLight& light : lights_) all.push_back({.light = all.size(), .lamp = light});
+  // Those of the scene that shine on that plane where nothing is in the way, points and spots as what they are to it.
+  std::vector<LightOnReflector> lamps_before(const LitPlane& plane, LeftIn& left_in) const {
+    std::vector<LightOnReflector> lamps;
+    const auto add = [&](std::size_t number, const PolygonLight& lamp, const Light* punctual) {
+      double worth = 0;
+      for (const Vec3& node : plane.nodes) worth += polygon_irradiance(lamp, {node, plane.normal, plane.normal});
+      if (!(worth > 0)) return;
+      if (lamp.triangles.size() > kMaxReflectorEmitters)
+        ++left_in.too_fine;
+      else
+        lamps.push_back(
+            {.light = number, .lamp = lamp, .punctual = punctual, .worth = worth * luminance(lamp.radiance)});
+    };
+    for (std::size_t l = 0; l < lights_.size(); ++l) add(l, lights_[l], nullptr);
     const Scene& scene = accel_.scene();
     for (std::size_t l = 0; l < scene.lights.size(); ++l)
-      if (auto square = punctual_square(scene, scene.lights[l], plane))
-        all.push_back({.light = lights_.size() + l, .lamp = std::move(*square), .punctual = &scene.lights[l]});
-    return all;
+      if (const auto square = punctual_square(scene, scene.lights[l], plane))
+        add(lights_.size() + l, *square, &scene.lights[l]);
+    return lamps;
   }
 
   const Accel& accel_;

@@ -11,11 +11,9 @@ namespace {
 
 constexpr float kSide = 0.01f;   // of its distance from the plane
 constexpr float kLeast = 0.01f;  // metres from the plane: what is nearer lies on it
-
-// Cosine at a square of that normal.
-float cosine_towards(const Vec3& normal, const Vec3& from, const Vec3& point) {
-  return glm::dot(normal, glm::normalize(point - from));
-}
+// Cosine at the square from which on it may be darker than the light: a far corner of a long floor would leave nothing
+// of the 8 bits of a share for what is near.
+constexpr float kGrazing = 1 / 16.0f;
 
 }  // namespace
 
@@ -26,7 +24,8 @@ std::optional<PolygonLight> punctual_square(const Scene& scene, const Light& lig
   Vec3 most(0);
   for (const Vec3& node : plane.nodes) {
     const Vec3 towards = glm::normalize(node - light.position);
-    const Vec3 needed = punctual_intensity(scene, light, towards) / -glm::dot(plane.normal, towards);
+    const Vec3 needed =
+        punctual_intensity(scene, light, towards) / std::max(kGrazing, -glm::dot(plane.normal, towards));
     if (luminance(needed) > luminance(most)) most = needed;
   }
   if (!(luminance(most) > 0)) return std::nullopt;
@@ -47,9 +46,10 @@ std::optional<PolygonLight> punctual_square(const Scene& scene, const Light& lig
 }
 
 float fade_of_square(const Scene& scene, const Light& light, const PolygonLight& square, const Vec3& point) {
-  const float cosine = cosine_towards(square.normal, square.center, point);
+  const Vec3 towards = glm::normalize(point - square.center);
+  const float cosine = glm::dot(square.normal, towards);
   if (!(cosine > 0)) return 0;
-  const Vec3 has = punctual_intensity(scene, light, glm::normalize(point - square.center));
+  const Vec3 has = punctual_intensity(scene, light, towards);
   const float shown = luminance(square.radiance) * static_cast<float>(square.area_m2()) * cosine;
   return std::clamp(luminance(has) / shown, 0.0f, 1.0f);
 }

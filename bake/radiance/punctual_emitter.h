@@ -14,7 +14,8 @@ struct LitPlane {
 };
 
 // A small square in the place of a point or spot light that faces a plane. Towards the node that it sends most to,
-// each weighted as it shows the square, it is as bright as the light; towards others by fade_of_square. Nothing for
+// each weighted as it shows the square, it is as bright as the light; towards others by fade_of_square; at grazing
+// incidence it may be darker. Nothing for
 // other lights, for those at or behind the plane, and for those that do not shine on it.
 std::optional<PolygonLight> punctual_square(const Scene& scene, const Light& light, const LitPlane& plane);
 

@@ -19,7 +19,7 @@ enum CurvedUnit {
 };
 
 // Radius (tangent) that holds half of a lobe, from which on its taps find their own distances: a roughness of about
-// 0.3.
+// 0.17.
 constexpr float kWideLobe = 0.03f;
 
 void draw_reflector(const FrameContext& context, const GpuCurvedReflector& reflector) {

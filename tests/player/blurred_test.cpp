@@ -34,6 +34,15 @@ Camera camera_at(const Vec3& eye, const Vec3& target) {
 
 constexpr int kWidth = 480, kHeight = 360;
 
+// Without maps; materials 1 and 2 are red and blue lamps.
+Pack pack_with_lamps() {
+  Pack pack = blurring_pack(0.3f, {}, nullptr);
+  pack.materials.resize(3);
+  pack.materials[1].emission = kRed;
+  pack.materials[2].emission = {0, 0, 50};
+  return pack;
+}
+
 class Blurred : public FrameTest {
  protected:
   Picture draw_mk(const Pack& pack, const Camera& camera) {
@@ -117,10 +126,7 @@ TEST_F(Blurred, BeyondItsEdgeAReflectorShowsWhatItShowsThere) {
 // The same of mirrored geometry: a blue wall close behind the red one is seen by no ray from the reflector, but in its
 // image past the red one's foot.
 TEST_F(Blurred, BesideAWallAtItsEdgeAReflectorShowsNothingOfWhatLiesBehind) {
-  Pack pack = blurring_pack(0.3f, {}, nullptr);
-  pack.materials.resize(3);
-  pack.materials[1].emission = kRed;
-  pack.materials[2].emission = {0, 0, 50};
+  Pack pack = pack_with_lamps();
   add_quad(pack, {1, -1, 0}, {0, 0, 1.5f}, {0, 2, 0}, 1, -1);
   add_quad(pack, {1.02f, -1, 0}, {0, 0, 1.5f}, {0, 2, 0}, 2, -1);
   Camera camera = camera_at({-0.9f, 0, 1}, {0.8f, 0, 0});
@@ -135,10 +141,7 @@ TEST_F(Blurred, BesideAWallAtItsEdgeAReflectorShowsNothingOfWhatLiesBehind) {
 
 // Past a free edge its lobes see what there is: half of a table's top shows what the whole one does, up to its edge.
 TEST_F(Blurred, AFreeEdgeChangesNothing) {
-  Pack pack = blurring_pack(0.3f, {}, nullptr);
-  pack.materials.resize(3);
-  pack.materials[1].emission = kRed;
-  pack.materials[2].emission = {0, 0, 50};
+  Pack pack = pack_with_lamps();
   add_quad(pack, {3, -2, 0.1f}, {0, 0, 4}, {0, 2, 0}, 1, -1);
   add_quad(pack, {3, 0, 0.1f}, {0, 0, 4}, {0, 2, 0}, 2, -1);
   Camera camera = camera_at({-1.5f, 0, 0.4f}, {0, 0, 0});
