@@ -3,6 +3,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/reference/glints.h"
 #include "bake/trace/albedo.h"
+#include "bake/trace/glass.h"
 #include "formats/image/display.h"
 #include "formats/image/relative_error.h"
 #include "formats/query/camera.h"
@@ -39,15 +40,15 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
   }
   const float coverage = surface.shade.coverage;
   const float cos_o = glm::dot(surface.normal, -ray.direction);
-  const bool solid = surface.shade.eta > 0;
-  const Vec3 through = solid ? Vec3(1 - coverage) : straight_transmittance(surface.shade, cos_o);
+  const bool bends = surface.shade.eta > 0 || (t.options.frosted_panes && is_frosted_pane(surface.shade));
+  const Vec3 through = bends ? Vec3(1 - coverage) : straight_transmittance(surface.shade, cos_o);
   if (max_component(through) > 0) {
     const Ray rest{spawn_origin(t.accel.scene(), hit.triangle, hit.barycentric, ray.direction), ray.direction};
     begin("radiance behind, cd/m2");
     const PathLight behind = trace_path(t, rest, 0, sampler, rays);
     light.emission += through * (behind.emitted + behind.sky + behind.scattered);
   }
-  if (solid) {
+  if (bends) {
     begin("radiance refracted, cd/m2");
     light.emission += coverage * refracted_light(t, surface, -ray.direction, sampler, rays);
   }
@@ -129,6 +130,7 @@ Transport for_eyes(const Transport& t, const Camera& camera, ReferenceOptions op
   constexpr int kRows = 24;
   constexpr std::uint32_t kPaths = 64;  // few make the mean of logarithms too small
   Transport out = t;
+  out.options.frosted_panes = true;
   std::uint64_t rays = 0;
   const auto is_unlit = [](const SceneMaterial& m) { return m.unlit; };
   const std::vector<SceneMaterial>& materials = t.accel.scene().materials;

@@ -28,8 +28,8 @@ struct ReferenceFrame {
   double relative_noise = 0;  // root of the mean of noise² / (total² + (0.01 mean)²), means over pixels and channels
 };
 
-// The transport with unlit_white as this frame shows it: what is white where its lit part is, on the (log) average,
-// middle grey. As it was where the scene has no unlit surface or it is set.
+// The transport as eyes see: frosted panes blur, and unlit_white is as this frame shows it: what is white where its lit
+// part is, on the (log) average, middle grey. That is as it was where the scene has no unlit surface or it is set.
 Transport for_eyes(const Transport& transport, const Camera& camera, ReferenceOptions options, std::uint64_t seed);
 
 // Paths start as pixel_ray() of formats/query has them. Error kStopped only.

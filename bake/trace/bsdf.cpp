@@ -93,6 +93,11 @@ std::optional<BsdfSample> Bsdf::refracted(const Vec2& v) const {
   return refract_at(facet(v), point_.transmission * lobes_.diffuse_scale);
 }
 
+Vec3 Bsdf::spread(const Vec2& v) const {
+  const DVec3 mirrored = reflect_at(DVec3(wo_), facet(v));
+  return Vec3(mirrored.x, mirrored.y, -std::abs(mirrored.z));
+}
+
 // From within: one facet reflects or refracts all of its light, what its tint takes excepted. No lobe is left to light
 // sampling, since no shadow ray is bent.
 std::optional<BsdfSample> Bsdf::sample_inside(float u, const Vec2& v) const {

@@ -34,6 +34,9 @@ class Bsdf {
   std::optional<BsdfSample> sample(float u, const Vec2& v) const;
   // Of solid glass, met from outside: what it refracts towards wo, alone and in full. Nothing where it refracts none.
   std::optional<BsdfSample> refracted(const Vec2& v) const;
+  // Of a thin pane: the direction, below the horizon, whose light its facets send to wo in place of what lies straight
+  // behind. It is spread like reflected light, mirrored at the pane (KHR_materials_transmission).
+  Vec3 spread(const Vec2& v) const;
 
  private:
   DVec3 facet(const Vec2& v) const;  // a normal of the base lobe that wo sees

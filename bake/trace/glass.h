@@ -22,6 +22,12 @@ inline bool is_frosted(const ShadePoint& point) {
   return point.eta > 0 && (point.alpha >= kMirrorAlpha || point.coat > 0);
 }
 
+// Whether facets of a thin pane spread what is seen through it. Only eyes see that (PathOptions::frosted_panes): light
+// is taken to pass straight, so that lamps behind frosted shades are found by shadow rays.
+inline bool is_frosted_pane(const ShadePoint& point) {
+  return !(point.eta > 0) && point.alpha >= kMirrorAlpha && max_component(point.transmission) > 0;
+}
+
 // The glass that a path is in. Solids are taken to lie in air: of those that overlap the last one entered counts.
 class Medium {
  public:

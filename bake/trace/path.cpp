@@ -24,7 +24,7 @@ class PathTracer {
       : t_(t), sampler_(sampler), rays_(rays), on_diffuse_(on_diffuse), mirrored_(on_diffuse != nullptr) {}
 
   // It is what an eye sees.
-  void show_unlit() { eyes_ = t_.options.unlit_white > 0; }
+  void show_to_eyes() { eyes_ = true; }
   // The path goes on by a sample of a surface's lobes.
   void leave(const SurfacePoint& surface, const BsdfSample& sample) {
     const bool refracted = sample.lobe == Lobe::kRefraction;
@@ -69,7 +69,7 @@ class PathTracer {
       SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
       throughput_ *= medium_.passed(t_.accel.scene(), hit);
       if (t_.listener) t_.listener->meet(surface, throughput_);
-      if (eyes_ && t_.accel.scene().material_of(hit.triangle).unlit) {
+      if (eyes_ && t_.options.unlit_white > 0 && t_.accel.scene().material_of(hit.triangle).unlit) {
         light.scattered += throughput_ * t_.options.unlit_white * surface.shade.base_color;
         break;
       }
@@ -162,7 +162,9 @@ class PathTracer {
     const auto sample = shading.sample(u, sampler_.next2());
     if (!sample) return Step::kEnd;
     const bool passes = sample->lobe == Lobe::kTransmission;
-    const Vec3 direction = passes ? ray.direction : shading.world(*sample);
+    const Vec3 direction = !passes                 ? shading.world(*sample)
+                           : sees_frosted(surface) ? shading.spread(sampler_.next2())
+                                                   : ray.direction;
     leave(surface, *sample);
     throughput_ *= sample->weight;
     if (!(max_component(throughput_) > 0)) return Step::kEnd;
@@ -175,6 +177,11 @@ class PathTracer {
     from_ = ray.origin;
     pdf_ = sample->delta ? 0 : shading.pdf(direction);
     return Step::kBounced;
+  }
+
+  // Beyond a glossy lobe light sampling stands in for a part of what is met, and looks straight through.
+  bool sees_frosted(const SurfacePoint& surface) const {
+    return eyes_ && t_.options.frosted_panes && !(pdf_ > 0) && is_frosted_pane(surface.shade);
   }
 
   void add_mirrored(const SurfacePoint& surface, const Shading& shading, int bounce, PathLight& light) {
@@ -199,7 +206,7 @@ class PathTracer {
   Sampler& sampler_;
   std::uint64_t& rays_;
   const OnDiffuse* on_diffuse_;
-  bool eyes_ = false;  // it is what an eye sees: unlit surfaces show
+  bool eyes_ = false;  // it is what an eye sees: unlit surfaces show, frosted panes blur
   bool mirrored_;      // no diffuse vertex so far was followed, nor light through frosted glass
   Vec3 throughput_{1};
   Vec3 from_{0};   // last vertex that chose a direction
@@ -234,7 +241,7 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = sample->delta ? 0 : shading.pdf(direction);
   PathTracer path(t, sampler, rays, on_diffuse);
-  path.show_unlit();
+  path.show_to_eyes();
   path.leave(surface, *sample);
   const PathLight rest = path.follow(ray, pdf, 1, sample->weight);
   light.scattered += rest.scattered;
@@ -246,7 +253,7 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
 
 PathLight trace_path(const Transport& t, const Ray& ray, float bsdf_pdf, Sampler& sampler, std::uint64_t& rays) {
   PathTracer path(t, sampler, rays);
-  path.show_unlit();
+  path.show_to_eyes();
   return path.follow(ray, bsdf_pdf, 0, Vec3(1));
 }
 
@@ -264,11 +271,17 @@ Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3
 Vec3 refracted_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays) {
   const Shading shading(surface, wo);
+  PathTracer path(t, sampler, rays);
+  path.show_to_eyes();
+  if (is_frosted_pane(surface.shade)) {
+    const Vec3 direction = shading.spread(sampler.next2());
+    const Vec3 passed =
+        surface.shade.transmission * (1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, wo))));
+    return path.follow({spawn_origin(surface, direction), direction}, 0, 1, passed).scattered;
+  }
   const auto sample = shading.refracted(sampler.next2());
   if (!sample || !(max_component(sample->weight) > 0)) return Vec3(0);
   const Vec3 direction = shading.world(*sample);
-  PathTracer path(t, sampler, rays);
-  path.show_unlit();
   path.leave(surface, *sample);
   return path.follow({spawn_origin(surface, direction), direction}, 0, 1, sample->weight).scattered;
 }

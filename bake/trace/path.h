@@ -18,6 +18,7 @@ struct PathOptions {
   int roulette_from = 3;   // bounces that are never ended by chance
   // cd/m² that eyes see of white unlit surfaces, straight or by specular lobes; 0: none, they are seen through.
   float unlit_white = 0;
+  bool frosted_panes = false;  // rough thin panes spread what eyes see through them, straight or in mirrors
 };
 
 class LightBook;
@@ -138,7 +139,8 @@ PathLight trace_to_diffuse(const Transport& transport, const TracedRay& traced, 
 Vec3 reflected_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays);
 
-// Light that solid glass refracts towards wo, outside of it, all bounces; 0 of other surfaces.
+// Light that solid glass refracts towards wo, outside of it, or that a frosted pane lets through, all bounces; 0 of
+// other surfaces.
 Vec3 refracted_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays);
 

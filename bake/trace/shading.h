@@ -39,6 +39,8 @@ class Shading {
   std::optional<BsdfSample> sample(float u, const Vec2& v) const { return bsdf().sample(u, v); }
   // As Bsdf::refracted().
   std::optional<BsdfSample> refracted(const Vec2& v) const { return bsdf().refracted(v); }
+  // As Bsdf::spread(), as a world direction below the geometric surface.
+  Vec3 spread(const Vec2& v) const { return below(bsdf().spread(v)); }
   static float cosine_of(const Vec3& w) { return std::max(0.0f, w.z); }
   float cosine(const Vec3& wi) const { return both(wi, cosine_of); }
 
@@ -51,12 +53,14 @@ class Shading {
 
   // The same of refracted light below it, and of any other above it.
   Vec3 world(const BsdfSample& sample) const {
-    if (sample.lobe != Lobe::kRefraction) return above(sample.wi);
-    const Vec3 world = glm::normalize(frame_ * sample.wi);
-    return glm::dot(world, surface_.geometric_normal) > 0 ? fold(world) : world;
+    return sample.lobe == Lobe::kRefraction ? below(sample.wi) : above(sample.wi);
   }
 
  private:
+  Vec3 below(const Vec3& w) const {
+    const Vec3 world = glm::normalize(frame_ * w);
+    return glm::dot(world, surface_.geometric_normal) > 0 ? fold(world) : world;
+  }
   const Bsdf& bsdf() const {
     if (!bsdf_) bsdf_.emplace(surface_.shade, wo_);
     return *bsdf_;

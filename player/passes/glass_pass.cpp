@@ -21,11 +21,10 @@ enum GlassUnit {
 };
 
 constexpr int kShapeSize = 128, kAroundSize = 256;  // texels a side of a face
-constexpr std::ptrdiff_t kMostAround = 16;    // bodies that the scene is drawn around; others use the nearest one's
-constexpr float kLeastOfPicture = 1e-4f;      // of it, that a body covers for that
-constexpr float kClear = 0.02f;               // roughness below which glass does not blur
-constexpr float kMostIor = 10;                // beyond it numbers run out
-constexpr int kLooks = 32, kCoarseLooks = 4;  // of a lobe
+constexpr std::ptrdiff_t kMostAround = 16;  // bodies that the scene is drawn around; others use the nearest one's
+constexpr float kLeastOfPicture = 1e-4f;    // of it, that a body covers for that
+constexpr float kMostIor = 10;              // beyond it numbers run out
+constexpr int kLooks = 32, kPaneLooks = 12, kCoarseLooks = 4;  // of a lobe
 
 // As OpenGL has the faces of a cube.
 Camera face_camera(const Vec3& eye, int face) {
@@ -69,7 +68,7 @@ bool overlap(const NdcRect& a, const NdcRect& b) {
 }
 
 bool blurs(const Material& m, const FrameOptions& options) {
-  return m.roughness > kClear && options.blur != Blur::kOff;
+  return m.roughness > kClearGlass && options.blur != Blur::kOff;
 }
 
 }  // namespace
@@ -112,7 +111,8 @@ Status GlassPass::prepare(const FrameContext& context, const ScenePass& scene_pa
   const bool whole = !scene.images().state().busy;
   for (const auto& [share, i] : seen) {
     Body& body = bodies_[i];
-    if (scene.glass()[i].planes.empty() && !body.shape) ORIEL_TRY_VOID(draw_shape(context, i));
+    const GlassBody& glass = scene.glass()[i];
+    if (glass.planes.empty() && !glass.pane && !body.shape) ORIEL_TRY_VOID(draw_shape(context, i));
     if (-share < kLeastOfPicture || (body.around_of == scene.serial() && (body.whole || !whole))) continue;
     const auto others = std::ranges::count_if(bodies_, [](const Body& b) { return static_cast<bool>(b.around); });
     if (!body.around && others >= kMostAround) continue;
@@ -242,13 +242,15 @@ void GlassPass::draw_surface(const FrameContext& context, const GlassBody& body,
 
 void GlassPass::set_body(const GpuScene& scene, const GlassBody& body, const FrameOptions& options) const {
   const Material& m = scene.pack().materials[body.material];
-  const SolidGlass& solid = scene.pack().solids[body.solid];
+  const SolidGlass solid = body.pane ? SolidGlass{body.material, m.base_color * ((1 - m.metallic) * m.transmission)}
+                                     : scene.pack().solids[body.solid];
   const bool frosted = blurs(m, options);
+  light_.set("u_pane", body.pane ? 1 : 0);
   light_.set("u_tint", glm::clamp(solid.tint, Vec3(0), Vec3(1)));
   light_.set("u_absorption", solid.absorption);
   light_.set("u_ior", std::clamp(m.ior, 1.0f, kMostIor));
   light_.set("u_width", frosted ? m.roughness * m.roughness : 0.0f);
-  light_.set("u_looks", !frosted ? 1 : options.coarse ? kCoarseLooks : kLooks);
+  light_.set("u_looks", !frosted ? 1 : options.coarse ? kCoarseLooks : body.pane ? kPaneLooks : kLooks);
   light_.set("u_turn", static_cast<float>(glm::fract(0.618033988749895 * options.look)));
   light_.set("u_centre", body.centre);
   light_.set("u_radius", body.radius);
@@ -273,7 +275,7 @@ void GlassPass::shade(const FrameContext& context, std::size_t index, bool insid
   tints_.bind(kGlassTints);
   behind_.bind(kGlassBehind);
   bodies_[around].around.bind(kGlassAround);
-  bodies_[index].shape.bind(kGlassShape);
+  if (!body.pane) bodies_[index].shape.bind(kGlassShape);
   constexpr std::pair<const char*, GlassUnit> kUnits[] = {
       {"u_places", kGlassPlaces}, {"u_normals", kGlassNormals},         {"u_tints", kGlassTints},
       {"u_behind", kGlassBehind}, {"u_reflectance", kGlassReflectance}, {"u_around", kGlassAround},
@@ -299,15 +301,15 @@ Status GlassPass::draw(const FrameContext& context, const FrameTarget& frame, st
   const auto& [scene, view, options, stats] = context;
   const GlassBody& body = scene.glass()[index];
   const NdcRect screen = project_box(view.clip_from_pack, body.bounds);
-  const bool levels = body.planes.empty() || blurs(scene.pack().materials[body.material], options);
+  const bool levels = (body.planes.empty() && !body.pane) || blurs(scene.pack().materials[body.material], options);
   // Thin panes are drawn in between.
   const bool stale = !since_ || !scene.transparent().empty() || (levels && !has_levels_) ||
                      std::ranges::any_of(*since_, [&](const NdcRect& drawn) { return overlap(drawn, screen); });
   if (stale) ORIEL_TRY_VOID(take_behind(frame, levels, stats));
   since_->push_back(screen);
-  const bool inside = view.eye.w > 0 && scene.is_inside_glass(body, Vec3(view.eye));
+  const bool inside = !body.pane && view.eye.w > 0 && scene.is_inside_glass(body, Vec3(view.eye));
   gpu::RasterState state;
-  state.cull = inside ? gpu::Cull::kFront : gpu::Cull::kBack;
+  state.cull = body.pane ? gpu::Cull::kNone : inside ? gpu::Cull::kFront : gpu::Cull::kBack;
   glEnable(GL_SCISSOR_TEST);
   scissor_to(screen, view);
   draw_surface(context, body, state.cull);

@@ -1,6 +1,6 @@
 // Bodies of solid glass: each shows what the eye sees through it, refracted, absorbed and, frosted, blurred by the
 // distance behind it. Rays that leave it see the frame so far, by its depth, and beyond it the scene as drawn once from
-// the body's middle.
+// the body's middle. Frosted panes likewise, without refraction.
 #pragma once
 
 #include <optional>

@@ -104,10 +104,15 @@ std::vector<DrawRange> append(const Mesh& mesh, std::vector<Triangle> triangles,
   return ranges;
 }
 
-std::optional<GlassBody> body_of(const Mesh& mesh, const std::vector<Triangle>& shell) {
+bool is_frosted_pane(const Material& m) {
+  return m.transmission > 0 && m.metallic < 1 && m.roughness > kClearGlass && m.alpha_mode == AlphaMode::kOpaque &&
+         !m.unlit;
+}
+
+std::optional<GlassBody> body_of(const Mesh& mesh, const std::vector<Triangle>& shell, const GlassBody& kind) {
   const DVec3 middle = middle_of(mesh, shell);
-  if (!is_seen_from(mesh, shell, middle)) return std::nullopt;
-  GlassBody body;
+  if (!kind.pane && !is_seen_from(mesh, shell, middle)) return std::nullopt;
+  GlassBody body = kind;
   body.centre = Vec3(middle);
   for (const Triangle& t : shell)
     for (const std::uint32_t corner : t.corners) {
@@ -115,8 +120,25 @@ std::optional<GlassBody> body_of(const Mesh& mesh, const std::vector<Triangle>& 
       body.radius = std::max(body.radius, glm::length(mesh.positions[corner] - body.centre));
     }
   if (!(body.radius > 0)) return std::nullopt;
-  body.planes = planes_of(mesh, shell, body.radius);
+  if (!kind.pane) body.planes = planes_of(mesh, shell, body.radius);
   return body;
+}
+
+// Materials that bodies are of.
+std::vector<GlassBody> kinds_of(const Pack& pack) {
+  std::vector<GlassBody> kinds;
+  std::vector<bool> solid(pack.materials.size());
+  for (std::uint32_t i = 0; i < pack.solids.size(); ++i) {
+    solid[pack.solids[i].material] = true;
+    GlassBody& kind = kinds.emplace_back();
+    kind.material = pack.solids[i].material, kind.solid = i;
+  }
+  for (std::uint32_t m = 0; m < pack.materials.size(); ++m)
+    if (!solid[m] && is_frosted_pane(pack.materials[m])) {
+      GlassBody& kind = kinds.emplace_back();
+      kind.material = m, kind.pane = true;
+    }
+  return kinds;
 }
 
 }  // namespace
@@ -124,8 +146,8 @@ std::optional<GlassBody> body_of(const Mesh& mesh, const std::vector<Triangle>& 
 std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint32_t>& indices,
                                          std::vector<DrawRange>& ranges) {
   std::vector<GlassBody> bodies;
-  for (std::uint32_t solid = 0; solid < pack.solids.size(); ++solid) {
-    const std::uint32_t material = pack.solids[solid].material;
+  for (const GlassBody& kind : kinds_of(pack)) {
+    const std::uint32_t material = kind.material;
     std::vector<Triangle> triangles, left;
     for (const DrawRange& range : ranges)
       for (std::uint32_t i = 0; range.material == material && i + 2 < range.index_count; i += 3) {
@@ -135,12 +157,11 @@ std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint
     if (triangles.empty()) continue;
     std::erase_if(ranges, [&](const DrawRange& range) { return range.material == material; });
     for (const std::vector<Triangle>& shell : connected(pack.mesh, triangles)) {
-      std::optional<GlassBody> body = body_of(pack.mesh, shell);
+      std::optional<GlassBody> body = body_of(pack.mesh, shell, kind);
       if (!body) {
         left.insert(left.end(), shell.begin(), shell.end());
         continue;
       }
-      body->material = material, body->solid = solid;
       body->ranges = append(pack.mesh, shell, material, indices);
       bodies.push_back(std::move(*body));
     }

@@ -1,4 +1,5 @@
-// Bodies of solid glass: what the eye looks through bent, and how a ray finds its way out of them.
+// Bodies of solid glass: what the eye looks through bent, and how a ray finds its way out of them. Frosted panes: what
+// it looks through blurred.
 #pragma once
 
 #include <span>
@@ -9,12 +10,16 @@
 
 namespace oriel {
 
+// Roughness below which glass does not blur.
+inline constexpr float kClearGlass = 0.02f;
+
 // Planes of a body at most; with more it is taken as curved (shaders/passes/glass.frag has as many).
 inline constexpr std::size_t kMaxBodyPlanes = 24;
 
 struct GlassBody {
   std::uint32_t material = 0;  // into Pack::materials
   std::uint32_t solid = 0;     // into Pack::solids
+  bool pane = false;           // thin and frosted: no body, and of no solid
   Bounds bounds;
   Vec3 centre{0};    // inside; all of the surface is seen from there
   float radius = 0;  // of the sphere around the centre that holds it
@@ -24,8 +29,8 @@ struct GlassBody {
 };
 
 // Connected surfaces of `ranges`' triangles that are of solid materials become bodies where they are star-shaped about
-// their middle, of any lightmap pages. Their indices are appended, and `ranges` keeps what is none: other materials,
-// and hollow or branched glass.
+// their middle, of any lightmap pages. So do connected frosted panes, of any shape. Their indices are appended, and
+// `ranges` keeps what is none: other materials, clear panes, and hollow or branched glass.
 std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint32_t>& indices,
                                          std::vector<DrawRange>& ranges);
 

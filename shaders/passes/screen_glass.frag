@@ -1,6 +1,6 @@
 // What is seen through a body of glass, in place of what lies behind it: the eye ray is refracted into it, goes to and fro within
 // it, and what leaves it at each surface sees the scene: on the screen where that shows it, else as it is seen from the body's
-// middle.
+// middle. Frosted panes spread it like what they reflect, mirrored at the pane.
 #define GLASS_PLANES 24
 #include "lib/glass.glsl"
 #include "lib/reflectance.glsl"
@@ -14,6 +14,7 @@ uniform sampler2D u_reflectance;
 uniform int u_reflectance_row;  // -1: reflects nothing
 uniform int u_reflectance_count;
 uniform bool u_inside;      // the eye is in the glass
+uniform bool u_pane;        // thin and frosted: no body
 uniform vec3 u_tint;        // of a surface
 uniform vec3 u_absorption;  // 1/m
 uniform float u_ior;        // at least 1
@@ -42,7 +43,8 @@ const int kCrossings = 6;       // surfaces that a clear ray meets within
 const int kFrostedCrossings = 3;
 const float kLeast = 0.004;     // of the light: what brings less is not followed
 const float kSmooth = 1.5;      // pixels between rays
-const int kDoublings = 8;
+const float kWidestLook = 0.5;  // radians, of one of a pane's: the last ones stand for all of a lobe's tail
+const int kDoublings = 8, kPaneDoublings = 12;
 const float kFaint = 0.1;       // of it: less is seen from the body's middle
 const int kSteps = 64;          // of a ray over the screen
 const int kFrostedSteps = 8;
@@ -53,8 +55,9 @@ const float kThickness = 0.05;  // of its distance: a surface this far before a 
 vec3 light_around(vec3 origin, vec3 direction, float spread) {
   vec3 from = origin - u_around_centre;
   float along = dot(from, direction), apart = dot(from, from) - along * along, inverse = 0.0;
-  for (int i = 0; i < kDoublings; ++i) {
-    float way = 0.25 * u_radius * exp2(float(i));
+  int doublings = u_pane ? kPaneDoublings : kDoublings;  // what is behind a pane may be near beside its width
+  for (int i = 0; i < doublings; ++i) {
+    float way = 64.0 * u_radius * exp2(float(i - doublings));
     vec3 at = from + way * direction;
     if (textureLod(u_around, at, 0.0).a * length(at) < 1.0) continue;
     inverse = 1.0 / way;
@@ -202,26 +205,46 @@ float pixel_spread(vec3 p, vec3 d) {
   return min(0.5 * (length(dFdx(direction)) + length(dFdy(direction))), 1.0);
 }
 
+// A facet that the eye sees. i: of the lobe's looks; turn: other ones by pixel.
+vec3 facet_of(vec3 normal, vec3 to_eye, int i, float turn) {
+  float share = (float(i) + fract(turn * 7.0 + 1.0 / 32.0)) / float(u_looks);
+  return visible_facet(normal, to_eye, u_width, vec2(fract(0.618034 * float(i) + turn), share));
+}
+
+// Light that a thin pane lets through, for each of u_looks; a: how many of them are known.
+vec4 light_through(vec3 p, vec3 normal, vec3 to_eye, float turn) {
+  if (u_width <= 0.0) return look(p, -to_eye, 0.0, false);
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < u_looks; ++i) {
+    vec3 facet = facet_of(normal, to_eye, i, turn), mirrored = reflect(-to_eye, facet);
+    vec3 d = on_side(mirrored - 2.0 * dot(mirrored, normal) * normal, -normal);
+    sum += look(p, d, min(3.0 * facet_step(u_width, dot(facet, normal), float(u_looks)), kWidestLook), true);
+  }
+  return sum;
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 place = texelFetch(u_places, pixel, 0);
   vec3 normal = texelFetch(u_normals, pixel, 0).xyz, to_eye = normalize(u_eye.xyz - place.xyz * u_eye.w);
   normal = dot(normal, normal) > 0.0 ? normalize(normal) : to_eye;
+  if (u_pane && dot(normal, to_eye) < 0.0) normal = -normal;
   float rise = dot(normal, to_eye);
   if (rise < 1e-4) normal = normalize(normal + (1e-4 - rise) * to_eye);
   float cos_theta = dot(normal, to_eye);
   vec3 origin = u_inside ? u_eye.xyz : place.xyz;
   vec3 clear = u_inside ? -to_eye : refracted(to_eye, normal, u_ior, refracted_cosine(u_ior, cos_theta));
-  float spread = pixel_spread(origin, clear);
+  float spread = u_pane ? 0.0 : pixel_spread(origin, clear);
   if (place.a == 0.0) discard;
   vec4 sum = vec4(0.0);
   // Each of 4 x 4 neighbours looks elsewhere in the lobe.
   float turn = fract(float(pixel.x % 4 * 4 + pixel.y % 4) / 16.0 + u_turn);
-  for (int i = 0; i < u_looks; ++i) {
-    float share = (float(i) + fract(turn * 7.0 + 1.0 / 32.0)) / float(u_looks), wide = spread;
+  if (u_pane) sum = light_through(origin, normal, to_eye, turn);
+  for (int i = 0; i < u_looks && !u_pane; ++i) {
+    float wide = spread;
     vec3 d = clear;
     if (u_width > 0.0 && !u_inside) {
-      vec3 facet = visible_facet(normal, to_eye, u_width, vec2(fract(0.618034 * float(i) + turn), share));
+      vec3 facet = facet_of(normal, to_eye, i, turn);
       d = on_side(refracted(to_eye, facet, u_ior, refracted_cosine(u_ior, dot(to_eye, facet))), -normal);
       wide = max(spread, 1.5 * (u_ior - 1.0) * facet_step(u_width, dot(facet, normal), float(u_looks)));
     }

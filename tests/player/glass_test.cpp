@@ -274,8 +274,9 @@ float edge_width(const Picture& picture, int size) {
   return at(75) - at(25);
 }
 
-// The same of a slope: rays from above through a thin slab whose facets are GGX's on both sides.
-float slope_width(float alpha, float ior) {
+// The same of a slope: what becomes of rays from above at facets of GGX. beyond(facet): gives one.
+template <class Beyond>
+float slope_width(float alpha, const Beyond& beyond) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> uniform(0, 1);
   const auto facet = [&] {
@@ -284,26 +285,68 @@ float slope_width(float alpha, float ior) {
   };
   std::vector<float> slopes;
   for (int i = 0; i < 100000; ++i) {
-    const Vec3 within = glm::refract(Vec3(0, 0, -1), facet(), 1 / ior), beyond = glm::refract(within, facet(), ior);
-    if (beyond.z < 0) slopes.push_back(beyond.x / -beyond.z);
+    const Vec3 d = beyond(facet);
+    if (d.z < 0) slopes.push_back(d.x / -d.z);
   }
   std::sort(slopes.begin(), slopes.end());
   return slopes[slopes.size() * 3 / 4] - slopes[slopes.size() / 4];
 }
 
+constexpr float kBoardsFov = 0.8f;
+constexpr int kBoardsSize = 160;
+
+// A bright and a dark board behind what is there, as eyes see them from 1 m above it.
+void add_boards(Pack& pack, float z) {
+  testing::add_quad(pack, {0, -4, z}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(100)), -1);
+  testing::add_quad(pack, {-4, -4, z}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(0)), -1);
+}
+
+float pixels_of(float slopes, float behind) {
+  return slopes * behind / (1 + behind) * 0.5f * kBoardsSize / std::tan(0.5f * kBoardsFov);
+}
+
 TEST_F(GlassTest, FrostedBlurGrowsWithTheDistanceBehind) {
-  constexpr float kRoughness = 0.5f, kFov = 0.8f;
-  constexpr int kSize = 160;
-  const float slopes = slope_width(kRoughness * kRoughness, 1.5f);
+  constexpr float kRoughness = 0.5f;
+  const float slopes = slope_width(kRoughness * kRoughness, [](const auto& facet) {
+    return glm::refract(glm::refract(Vec3(0, 0, -1), facet(), 1 / 1.5f), facet(), 1.5f);
+  });
   for (const float behind : {0.01f, 0.1f, 0.4f}) {
     Pack pack = glass_pack(1.5f, kRoughness);
-    add_box(pack, Vec3(-3, -3, -0.01f), Vec3(3, 3, 0));
-    testing::add_quad(pack, {0, -4, -0.01f - behind}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(100)), -1);
-    testing::add_quad(pack, {-4, -4, -0.01f - behind}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(0)), -1);
-    const float found = edge_width(draw(pack, camera_at({0, 0, 1}, Vec3(0), kFov), kSize, kSize), kSize);
-    const float blur = slopes * behind / (1.01f + behind) * 0.5f * kSize / std::tan(0.5f * kFov);
+    add_box(pack, Vec3(-3, -3, 0), Vec3(3, 3, 0.01f));
+    add_boards(pack, -behind);
+    const Camera camera = camera_at({0, 0, 1.01f}, Vec3(0), kBoardsFov);
+    const float found = edge_width(draw(pack, camera, kBoardsSize, kBoardsSize), kBoardsSize);
+    const float blur = pixels_of(slopes, behind);
     EXPECT_NEAR(found, std::sqrt(blur * blur + 4), 0.15f * blur + 1) << behind << " m behind, alone " << blur;
   }
+}
+
+// A pane without thickness spreads what is seen through it as it spreads what it reflects, from both sides.
+TEST_F(GlassTest, FrostedPanesBlurByTheDistanceBehind) {
+  constexpr float kRoughness = 0.35f;
+  const float slopes = slope_width(kRoughness * kRoughness, [](const auto& facet) {
+    const Vec3 mirrored = glm::reflect(Vec3(0, 0, -1), facet());
+    return Vec3(mirrored.x, mirrored.y, -mirrored.z);
+  });
+  for (const bool back : {false, true})
+    for (const float behind : {0.01f, 0.1f, 0.4f}) {
+      Pack pack = glass_pack(1.5f, kRoughness);
+      pack.solids.clear();
+      pack.materials[0].base_color = Vec3(0.5f, 1, 1);
+      pack.materials[0].double_sided = true;
+      testing::add_quad(pack, {-3, -3, 0}, back ? Vec3(0, 6, 0) : Vec3(6, 0, 0), back ? Vec3(6, 0, 0) : Vec3(0, 6, 0),
+                        0, -1);
+      add_boards(pack, -behind);
+      const Camera camera = camera_at({0, 0, 1}, Vec3(0), kBoardsFov);
+      const Picture picture = draw(pack, camera, kBoardsSize, kBoardsSize);
+      const Vec3 bright = picture.at(kBoardsSize * 7 / 8, kBoardsSize / 2);
+      EXPECT_NEAR(bright.x, 0.5f * bright.y, 0.5f) << "its tint";
+      EXPECT_NEAR(bright.y, 98, 2);
+      Picture untinted = picture;
+      for (float& c : untinted.rgb) c *= 2;
+      const float found = edge_width(untinted, kBoardsSize), blur = pixels_of(slopes, behind);
+      EXPECT_NEAR(found, std::sqrt(blur * blur + 4), 0.15f * blur + 1) << behind << " m behind, alone " << blur;
+    }
 }
 
 // Eyes in the glass, on it, along it, numbers that are too large or none: finite, and no brighter than what there is.

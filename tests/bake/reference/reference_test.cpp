@@ -1,4 +1,7 @@
 // Reference frames against closed forms.
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "bake/reference/reference.h"
@@ -24,14 +27,16 @@ Scene lamp() {
   return parts.finish();
 }
 
-ReferenceFrame render(const Scene& scene, const ReferenceOptions& options, int threads = 0, std::uint64_t seed = 1) {
+const Camera kCamera{.name = "", .eye = {0, 0.2f, 0.9f}, .forward = {0, -0.3f, -1}};
+
+ReferenceFrame render(const Scene& scene, const ReferenceOptions& options, int threads = 0, std::uint64_t seed = 1,
+                      const Camera& camera = kCamera) {
   Context context;
   context.threads = threads;
   context.seed = seed;
   const Accel accel = *Accel::build(scene);
   const LightSet lights(scene);
-  return *render_reference({accel, lights, {}}, {.name = "", .eye = {0, 0.2f, 0.9f}, .forward = {0, -0.3f, -1}},
-                           options, context);
+  return *render_reference({accel, lights, {}}, camera, options, context);
 }
 
 void expect_color(const FloatImage& image, const Vec3& color, double tolerance, const char* what) {
@@ -62,6 +67,46 @@ TEST(Reference, AnEyeInGlassSeesThroughIt) {
   expect_color(frame.total, 2.25f * Vec3(1, 1, (1 - r) * once / (1 - r * once * once)), 0.005, "total");
 }
 
+// The share of GGX's facets that send a ray from above, through a thin pane, to more than `slope` beside its way.
+double spread_beyond(double alpha, double slope) {
+  constexpr int kSteps = 400;
+  int beyond = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int k = 0; k < kSteps; ++k) {
+      const double u = (i + 0.5) / kSteps, phi = 2 * std::numbers::pi * (k + 0.5) / kSteps;
+      const double s = alpha * std::sqrt(u / (1 - u)), c = 1 / (1 + s * s);  // c: the square of the facet's cosine
+      beyond += 2 * c * s * std::cos(phi) > slope * std::abs(2 * c - 1);
+    }
+  return static_cast<double>(beyond) / (kSteps * kSteps);
+}
+
+// An eye before a pane of roughness 0.4, a board that shines on one side of an edge 1 m behind it. Straight on, and in
+// a mirror that turns the view around.
+TEST(Reference, FrostedPanesSpreadWhatEyesSee) {
+  constexpr float kAlpha = 0.16f;
+  for (const bool mirrored : {false, true})
+    for (const float edge : {-0.3f, 0.0f, 0.1f, 0.4f}) {
+      SceneMaterial pane, mirror;
+      pane.metallic = 0, pane.transmission = 1, pane.specular = 0, pane.roughness = 0.4f, pane.double_sided = true;
+      pane.base_color = Vec3(1, 0.5f, 1);
+      mirror.metallic = 1, mirror.roughness = 0, mirror.double_sided = true;
+      test::SceneParts parts;
+      const float side = mirrored ? 1.0f : -1.0f;  // where the pane is, along z
+      parts.quad("pane", parts.add(pane), {-50, -50, side}, {100, 0, 0}, {0, 100, 0});
+      if (mirrored) parts.quad("mirror", parts.add(mirror), {-50, -50, -1}, {100, 0, 0}, {0, 100, 0});
+      const Vec3 right(100, 0, 0), up(0, 100, 0);
+      parts.quad("board", parts.diffuse(Vec3(0), Vec3(1)), {edge, -50, 2 * side}, mirrored ? up : right,
+                 mirrored ? right : up);
+      Camera camera;
+      camera.eye = Vec3(0, 0, mirrored ? 0.9f : 0.0f);
+      camera.forward = Vec3(0, 0, -1);
+      camera.vertical_fov_rad = 1e-3f;
+      const ReferenceFrame frame = render(parts.finish(), {.width = 4, .height = 4, .samples = 8192}, 0, 1, camera);
+      const auto share = static_cast<float>(spread_beyond(kAlpha, edge));
+      expect_color(frame.total, Vec3(share, 0.5f * share, share), 0.02, mirrored ? "in a mirror" : "straight");
+    }
+}
+
 // Straight on, behind a pane and in a mirror: their colour times the white of a frame whose lit part, of 2 cd/m², is
 // middle grey. What is lit does not see them.
 TEST(Reference, UnlitSurfacesAreAsBrightAsTheFramesWhite) {
@@ -73,7 +118,7 @@ TEST(Reference, UnlitSurfacesAreAsBrightAsTheFramesWhite) {
   mirror.roughness = 0;
   mirror.double_sided = pane.double_sided = true;
   pane.transmission = 1;
-  pane.specular = 0;
+  pane.metallic = pane.specular = 0;
   pane.roughness = 0;
   test::SceneParts parts;
   parts.box("room", parts.diffuse(Vec3(0.5f), Vec3(1)), Vec3(-1), Vec3(1), true);
