@@ -37,7 +37,7 @@ uniform samplerCube u_around;       // light, a 1 / distance, 0 for the sky
 uniform vec3 u_around_centre;
 uniform float u_around_size;        // texels a side
 
-layout(location = 0) out vec4 o_light;  // a: 1; 2 where the lobe is wider than 4 x 4 pixels everywhere
+layout(location = 0) out vec4 o_light;  // a: 1; 2 where the lobe is wider than 4 x 4 pixels (a body's: everywhere)
 
 const int kCrossings = 6;       // surfaces that a clear ray meets within
 const int kFrostedCrossings = 3;
@@ -49,6 +49,7 @@ const float kFaint = 0.1;       // of it: less is seen from the body's middle
 const int kSteps = 64;          // of a ray over the screen
 const int kFrostedSteps = 8;
 const float kThickness = 0.05;  // of its distance: a surface this far before a ray is not met
+const float kPaneThickness = 0.005;  // a pane's frame is about as near, and covers what is behind it
 
 // As it is seen from the middle of the body: first how far the ray comes before it passes what is seen there, in steps that double,
 // then where it leaves the sphere on which that lies.
@@ -77,7 +78,9 @@ float depth_at(vec2 ndc) {
 }
 
 // The sky is met behind everything.
-bool is_near(float depth, float surface) { return surface >= 1.0 || depth - surface <= kThickness * max(1.0 - surface, 1e-7); }
+bool is_near(float depth, float surface, float thickness) {
+  return surface >= 1.0 || depth - surface <= thickness * max(1.0 - surface, 1e-7);
+}
 
 // Along the screen from a to b, normalised device coordinates: the share of the way at which the ray meets what is seen there; -1
 // where it leaves the screen without, -2 where something nearer hides it there. Steps of a pixel; frosted: few, that
@@ -95,7 +98,7 @@ float meet(vec3 a, vec3 b, bool frosted) {
     vec3 p = mix(a, b, at);
     float surface = depth_at(p.xy);
     bool behind = p.z >= surface;
-    if (behind && !in_front && is_near(p.z, surface)) return at;
+    if (behind && !in_front && is_near(p.z, surface, u_pane ? kPaneThickness : kThickness)) return at;
     if (behind && in_front) {
       float low = before, high = at;
       for (int k = 0; k < 6; ++k) {
@@ -105,7 +108,7 @@ float meet(vec3 a, vec3 b, bool frosted) {
         else low = middle;
       }
       // What begins nearer than the ray was in front is beside it.
-      if (is_near(mix(a, b, low).z, depth_at(mix(a, b, high).xy))) return high;
+      if (is_near(mix(a, b, low).z, depth_at(mix(a, b, high).xy), kThickness)) return high;
     }
     in_front = !behind;
     before = at;
@@ -132,6 +135,7 @@ vec3 light_behind(vec2 ndc, float depth, float pixels) {
 }
 
 float g_least_pixels = 1e9;  // between rays of the lobe where they meet something
+float g_near = 0.0;          // rays that are no farther apart than that allows for pixels beside each other
 
 // Light from along a ray that has left the glass; a: 0 where something hides what a frosted ray would see, so that others tell.
 // spread: of the bundle, radians.
@@ -143,11 +147,12 @@ vec4 look(vec3 origin, vec3 direction, float spread, bool frosted) {
   if (away && all(lessThanEqual(abs(a.xy), vec2(1.0)))) {
     vec3 b = perspective ? way.xyz / way.w : (from + u_far * way).xyz;
     float at = meet(a, b, frosted);
-    if (at < -1.5 && frosted) return vec4(0.0);
+    if (at < -1.5 && frosted && !u_pane) return vec4(0.0);
     if (at >= 0.0) {
       float along = perspective ? at / max(1.0 - at, 1e-6) * from.w / way.w : at * u_far;
       float pixels = spread * along * u_pixels_per_tangent / (perspective ? from.w + along * way.w : 1.0);
       g_least_pixels = min(g_least_pixels, pixels);
+      if (pixels <= kSmooth) g_near += 1.0;
       vec3 met = mix(a, b, at);
       return vec4(light_behind(met.xy, met.z, pixels), 1.0);
     }
@@ -254,5 +259,6 @@ void main() {
   vec3 entered = u_inside ? vec3(u_ior * u_ior)
                           : u_tint * texelFetch(u_tints, pixel, 0).rgb * (1.0 - max_channel(reflected_at(cos_theta)));
   vec3 light = sum.a > 0.02 * float(u_looks) ? sum.rgb / sum.a : light_around(origin, -to_eye, 0.5);
-  o_light = vec4(entered * light, u_width > 0.0 && g_least_pixels > kSmooth ? 2.0 : 1.0);
+  bool wide = u_pane ? g_near < 0.5 * float(u_looks) : g_least_pixels > kSmooth;
+  o_light = vec4(entered * light, u_width > 0.0 && wide ? 2.0 : 1.0);
 }

@@ -120,9 +120,12 @@ def block(cornell):
 SCREEN = 0.05
 
 
-def frosted(cornell):
+def frosted(cornell, thin=False):
     """The Cornell box behind a frosted screen."""
     scene = Scene(cornell)
+    if thin:
+        scene.pane("frosted pane", (0.025, 0.01, SCREEN), (0.5, 0, 0), (0, 0.38, 0), scene.glass_of(0, 0.3))
+        return scene
     scene.box("frosted screen", (0.275, 0.2, SCREEN), (0.5, 0.38, 0.006), scene.glass_of(0.006, 0.3), 0, True)
     return scene
 
@@ -141,7 +144,7 @@ def boards(cornell):
     return scene
 
 
-def window(solid):
+def window(solid, roughness=0):
     """A wall of six panes, and what is seen through it of a garden under a bright ceiling."""
     scene = Scene()
     white, grey = scene.diffuse((0.75, 0.75, 0.75)), scene.diffuse((0.3, 0.3, 0.3))
@@ -161,7 +164,7 @@ def window(solid):
         scene.box("mullion", (x, 1.25, -2), (0.06, 2.5, 0.06), white)
     for y in (0.03, 1.25, 2.47):
         scene.box("transom", (0, y, -2), (4, 0.06, 0.06), white)
-    material = scene.glass_of(0.006 if solid else 0)
+    material = scene.glass_of(0.006 if solid else 0, roughness)
     for x in (-1.333, 0, 1.333):
         for y in (0.64, 1.86):
             if solid:
