@@ -6,6 +6,8 @@
 #include "bake/jobs/units.h"
 #include "bake/scene/sky.h"
 #include "bake/trace/albedo.h"
+#include "bake/trace/punctual.h"
+#include "bake/trace/sampler.h"
 #include "formats/core/octahedral.h"
 
 namespace oriel {
@@ -31,7 +33,9 @@ struct SurroundSight {
   bool ended = false;
 };
 
-constexpr double kRaysARow = 2048;  // about
+constexpr double kRaysARow = 2048;        // about
+constexpr std::uint32_t kSunPoints = 64;  // of a disk
+constexpr float kBeforeLight = 1e-4f;     // of its distance: what holds a light does not hide it
 
 class SurroundCapture {
  public:
@@ -57,8 +61,14 @@ class SurroundCapture {
   }
   std::uint64_t rays() const { return rays_; }
 
+  // The share of a light's light that comes from this far.
+  Vec3 passed(const Vec3& direction, float distance) {
+    const SurroundSight sight = walk(direction, distance * (1 - kBeforeLight));
+    return sight.ended || sight.valid == 0 ? Vec3(0) : sight.throughput;
+  }
+
  private:
-  SurroundSight walk(const Vec3& direction) {
+  SurroundSight walk(const Vec3& direction, float farthest = std::numeric_limits<float>::max()) {
     const float bounds_end = leaves_bounds(direction);
     Ray ray{centre_, direction};
     SurroundSight sight;
@@ -68,6 +78,7 @@ class SurroundCapture {
       ++rays_;
       if (!hit) return sight;
       const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
+      if (glm::length(p - centre_) > farthest) return sight;
       if (own(hit.triangle) && !(sees_itself_ && hit.front)) {
         if (!hit.front && !sees_itself_) sight = {};  // all before lies inside
       } else if (!sight.ended && hit.triangle != last) {
@@ -124,7 +135,52 @@ class SurroundCapture {
   std::uint64_t rays_ = 0;
 };
 
+// Spreads over the four texels around a direction what has that integral over all directions.
+void splat(SurroundMap& map, const Vec3& direction, const Vec3& lux) {
+  const auto side = static_cast<float>(map.size);
+  const Vec2 at = (octahedral_from_direction(direction) * 0.5f + 0.5f) * side - 0.5f, low = glm::floor(at);
+  for (int i = 0; i < 4; ++i) {
+    const Vec2 corner(i % 2, i / 2), share = glm::mix(1.0f - (at - low), at - low, corner);
+    const IVec2 texel = wrap_octahedral(IVec2(low + corner), static_cast<int>(map.size));
+    const float length = glm::length(direction_from_octahedral((Vec2(texel) + 0.5f) / side * 2.0f - 1.0f));
+    const float steradians = 4 / (side * side * length * length * length);
+    map.radiance[static_cast<std::size_t>(texel.y) * map.size + static_cast<std::size_t>(texel.x)] +=
+        share.x * share.y / steradians * lux;
+  }
+}
+
+void add_light(const Scene& scene, const Light& light, SurroundCapture& capture, SurroundMap& map) {
+  if (light.type != LightType::kDirectional) {
+    const Vec3 way = light.position - map.centre;
+    const float distance = glm::length(way);
+    if (!(distance > 0)) return;
+    const Vec3 direction = way / distance, candela = punctual_intensity(scene, light, -direction);
+    if (max_component(candela) > 0)
+      splat(map, direction, usable_light(candela / (distance * distance) * capture.passed(direction, distance)));
+    return;
+  }
+  const std::uint32_t points = light.angular_radius_rad > 0 ? kSunPoints : 1;
+  for (std::uint32_t i = 0; i < points; ++i) {
+    Sampler sampler(0, 0, i);
+    const Vec3 direction =
+        points > 1 ? sample_cone(-light.direction, light.angular_radius_rad, sampler.next2()) : -light.direction;
+    const Vec3 through = capture.passed(direction, std::numeric_limits<float>::max());
+    splat(map, direction, usable_light(light.intensity / static_cast<float>(points) * through));
+  }
+}
+
 }  // namespace
+
+void add_punctual_lights(const Accel& accel, FoundCurvedReflectors& found) {
+  const Scene& scene = accel.scene();
+  const OutgoingRadiance none;
+  const bool hours = scene.day.hours.size() > 1;
+  for (std::size_t i = 0; i < found.maps.size(); ++i) {
+    SurroundCapture capture(accel, found, found.reflectors[i], none);
+    for (const Light& light : scene.lights)
+      if (!(hours && light.hour >= 0)) add_light(scene, light, capture, found.maps[i]);
+  }
+}
 
 Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, const OutgoingRadiance& outgoing,
                             const Stage& stage) {

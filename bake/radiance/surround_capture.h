@@ -15,4 +15,9 @@ namespace oriel {
 Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, const OutgoingRadiance& outgoing,
                             const Stage& stage);
 
+// Adds points, spots and suns to captured maps as lamps of the texels that they lie in, so that lobes show their
+// highlights: the light's illuminance at the map's centre over the texels' solid angle, where it comes through. Texels
+// keep their distance. Of several hours of a day none has its sun in them, as one map shows all hours.
+void add_punctual_lights(const Accel& accel, FoundCurvedReflectors& found);
+
 }  // namespace oriel

@@ -348,6 +348,7 @@ Result<ReflectionReport> bake_reflections(const BakeTask& bake, PlannedReflectio
   const LitSurroundings lit{surroundings, to_planar};
   ORIEL_TRY(report.reuse, capture_or_keep(options, lit, stage, planned));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), stage));
+  if (!published) add_punctual_lights(accel, curved);
   const Judges judges{held_out_eyes(region, kHeldOutEyes, context.seed), cameras_of(region.points)};
   if (options.view_scheme == ViewScheme::kPlanned) {
     const ResidualOptions residual{

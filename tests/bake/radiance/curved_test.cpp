@@ -138,6 +138,58 @@ TEST(Surroundings, AreThoseOfTheClosedForm) {
   EXPECT_GT(mirror, 1000);
 }
 
+struct AddedLight {
+  DVec3 lux{0}, direction{0};  // integral over the map; where its middle lies
+};
+
+AddedLight added_light(const BallRoom& room) {
+  FoundCurvedReflectors found = captured(room, find(room));
+  const auto accel = Accel::build(room.scene);
+  if (!accel || found.maps.size() != 1) return {};
+  const SurroundMap before = found.maps[0];
+  add_punctual_lights(*accel, found);
+  const SurroundMap& map = found.maps[0];
+  AddedLight sum;
+  for (std::uint32_t i = 0; i < map.size * map.size; ++i) {
+    const Vec2 at = (Vec2(i % map.size, i / map.size) + 0.5f) / static_cast<float>(map.size) * 2.0f - 1.0f;
+    const DVec3 p(direction_from_octahedral(at));
+    const double steradians = 4 / std::pow(glm::length(p), 3) / map.size / map.size;
+    const DVec3 light = steradians * DVec3(map.radiance[i] - before.radiance[i]);
+    sum.lux += light;
+    sum.direction += light.x * glm::normalize(p);
+  }
+  return sum;
+}
+
+// What they have together is the illuminance at the centre; where they lie is the light's direction, also across the
+// map's edge, which is straight down the -z axis.
+TEST(Surroundings, PointsAndSunsAreLampsOfTheirTexels) {
+  for (const Vec3& way : {Vec3(0.3f, 1.2f, 0.4f), Vec3(0, 0, -1.5f), Vec3(0.001f, 0.6f, -1.5f)}) {
+    BallRoom room;
+    Light point;
+    point.position = BallRoom::kCentre + way;
+    point.intensity = Vec3(100, 50, 0);
+    room.scene.lights = {point};
+    const AddedLight found = added_light(room);
+    const double lux = 100 / glm::dot(DVec3(way), DVec3(way));
+    EXPECT_NEAR(found.lux.x, lux, 0.01 * lux);
+    EXPECT_NEAR(found.lux.y, 0.5 * lux, 0.01 * lux);
+    EXPECT_EQ(found.lux.z, 0);
+    EXPECT_GT(glm::dot(glm::normalize(found.direction), glm::normalize(DVec3(way))), std::cos(0.01));
+  }
+  BallRoom room;
+  Light sun;
+  sun.type = LightType::kDirectional;
+  sun.direction = glm::normalize(Vec3(0.2f, -1, 0.1f));
+  sun.angular_radius_rad = 0.05f;
+  sun.intensity = Vec3(1000);
+  room.scene.lights = {sun};
+  EXPECT_EQ(added_light(room).lux.x, 0) << "the room is closed";
+  SceneMaterial& ceiling = room.scene.materials[4];
+  ceiling.alpha_mode = AlphaMode::kBlend, ceiling.alpha = 0;
+  EXPECT_NEAR(added_light(room).lux.x, 1000, 10);
+}
+
 TEST(Surroundings, WhatLiesInsideTheObjectIsNotSeen) {
   BallRoom room;
   test::SceneParts parts;
