@@ -174,6 +174,17 @@ bool may_transmit(const SceneMaterial& material) {
          (material.transmission > 0 && material.metallic_roughness_texture.image >= 0);
 }
 
+bool is_polished(const SceneMaterial& m) {
+  constexpr float kMostRoughness = 0.5f;
+  const auto narrow = [](float roughness, const TextureSlot& texture) {
+    return roughness <= kMostRoughness || texture.image >= 0;
+  };
+  if (m.unlit) return false;
+  const bool reflects = m.metallic > 0 || m.specular > 0 || m.metal != Metal::kNone;
+  return (reflects && narrow(m.roughness, m.metallic_roughness_texture)) ||
+         (m.coat > 0 && narrow(m.coat_roughness, m.coat_roughness_texture));
+}
+
 Vec3 mean_emission(const Scene& scene, std::uint32_t triangle) {
   const SceneMaterial& m = scene.material_of(triangle);
   if (m.unlit || max_component(m.emission) <= 0) return Vec3(0);

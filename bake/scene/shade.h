@@ -52,6 +52,10 @@ Vec3 transmittance_at(const Scene& scene, std::uint32_t triangle, const Vec2& ba
 // False where every point has transmittance 0: rays need not look.
 bool may_transmit(const SceneMaterial& material);
 
+// Whether the material may have a lobe so narrow that it throws a bright image of a small lamp: by its roughness, or a
+// texture that may make it smooth.
+bool is_polished(const SceneMaterial& material);
+
 // The mean emission of a triangle over its emission texture, cd/m².
 Vec3 mean_emission(const Scene& scene, std::uint32_t triangle);
 

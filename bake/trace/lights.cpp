@@ -129,8 +129,9 @@ LightSample LightSet::sample_directional(const Vec3& p, float u, const Vec2& v) 
   const std::vector<double>& cdf = directional_cdf_;
   const auto at = std::upper_bound(cdf.begin(), cdf.end(), static_cast<double>(u) * cdf.back()) - cdf.begin();
   const std::size_t i = std::min(static_cast<std::size_t>(at), cdf.size() - 1);
-  return chosen_with(sample_light(directional_[i], p, v),
-                     static_cast<float>((cdf[i] - (i > 0 ? cdf[i - 1] : 0)) / cdf.back()));
+  LightSample sample = sample_light(directional_[i], p, v);
+  sample.sun = true;
+  return chosen_with(sample, static_cast<float>((cdf[i] - (i > 0 ? cdf[i - 1] : 0)) / cdf.back()));
 }
 
 LightSample LightSet::sample_triangle(const Near& near, const Vec3& p, const Vec2& v) const {

@@ -17,6 +17,7 @@ struct LightSample {
                      // probability of picking that light. Times f·cosθ: an unbiased estimate of reflected light
   float pdf = 0;            // per steradian, including the choice of the light; 0 for delta lights
   bool near = false;        // an emissive triangle, a point or a spot
+  bool sun = false;         // a directional light
   std::uint32_t group = 0;  // of lamps: into Scene::light_groups, or kSkyParts
 };
 

@@ -153,8 +153,8 @@ class PathTracer {
     if (on_diffuse_ && !tell_diffuse(surface, -ray.direction, distance)) return Step::kEnd;
     const Shading shading(surface, -ray.direction);
     const FromEmitter from = sample_lights_bsdf({t_, sampler_, rays_}, surface, shading);
-    (mirrored_ && from.near ? light.lamps : light.scattered) += throughput_ * from.light;
-    book(t_, mirrored_ && from.near ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction,
+    (mirrored_ && from.lamp ? light.lamps : light.scattered) += throughput_ * from.light;
+    book(t_, mirrored_ && from.lamp ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction,
          throughput_ * from.light);
     if (t_.listener) t_.listener->add("lamps", throughput_ * from.light);
     add_mirrored(surface, shading, bounce, light);
@@ -224,8 +224,8 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
   if (!surface.reflects) return light;
   const Shading shading(surface, wo);
   const FromEmitter from = sample_lights_bsdf(by, surface, shading);
-  (on_diffuse && from.near ? light.lamps : light.scattered) += from.light;
-  book(t, from.near ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction, from.light);
+  (on_diffuse && from.lamp ? light.lamps : light.scattered) += from.light;
+  book(t, from.lamp ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction, from.light);
   if (t.listener) t.listener->add("lamps", from.light);
   sample_mirrored(
       by, surface, t.options.max_bounces - 1, [&](const Vec3& wi) { return shading.eval(wi); },

@@ -102,8 +102,9 @@ struct PathLight {
   Vec3 emitted{0};    // by surfaces met directly, through glass and cut-outs only
   Vec3 sky{0};        // met so
   Vec3 scattered{0};  // after one reflection or more
-  Vec3 lamps{0};  // where diffuse vertices are told: of near lights (LightSample::near) after reflections that were all
-                  // specular; not in `scattered`
+  // Where diffuse vertices are told: of near lights (LightSample::near), and of suns by way of polished surfaces
+  // (is_polished), after reflections that were all specular; not in `scattered`.
+  Vec3 lamps{0};
   bool back_face = false;  // the first surface met was the back of a one-sided one
 };
 

@@ -21,7 +21,7 @@ inline float balance(float pdf, float other) {
 // which the other strategy would have chosen that direction.
 struct FromEmitter {
   Vec3 light{0};
-  bool near = false;        // LightSample::near
+  bool lamp = false;        // a near one, or a sun on a polished surface: what lamp paths follow where they are traced
   std::uint32_t group = 0;  // LightSample::group
   Vec3 direction{0, 0, 1};  // LightSample::direction
 };
@@ -44,10 +44,11 @@ FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const 
     t.accel.dropped().add(surface.triangle);
     return {};
   }
-  if (!(light.distance > 0)) return {value, light.near, light.group, light.direction};  // touching
+  const bool lamp = light.near || (light.sun && is_polished(t.accel.scene().material_of(surface.triangle)));
+  if (!(light.distance > 0)) return {value, lamp, light.group, light.direction};  // touching
   ++rays;
   const Ray ray{origin, light.direction, light.distance, light.pdf == 0};
-  return {value * t.accel.transmittance(ray), light.near, light.group, light.direction};
+  return {value * t.accel.transmittance(ray), lamp, light.group, light.direction};
 }
 
 inline void book(const Transport& t, LightBook::Kind kind, std::uint32_t group, const Vec3& direction,

@@ -4,6 +4,7 @@
 
 #include "bake/jobs/units.h"
 #include "bake/radiosity/gather/moments.h"
+#include "bake/radiosity/gather/polished_suns.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/trace/emission.h"
 #include "bake/trace/glass.h"
@@ -16,7 +17,8 @@ namespace {
 constexpr std::uint64_t kUnit = 8192;  // particles
 constexpr std::size_t kUnits = 128;    // whose light is kept until it is added up
 constexpr float kMostParticles = 16;   // that one splits into at a time
-constexpr float kOften = 4;            // times as often as they are bright, further reflections are looked at
+constexpr std::uint32_t kNoTriangle = ~0u;
+constexpr float kOften = 4;  // times as often as they are bright, further reflections are looked at
 
 // What came to a texel, of one particle or of a unit of them.
 struct Arrival {
@@ -56,6 +58,13 @@ void book(std::span<const Arrival> arrivals, std::uint32_t group, std::vector<Bo
   for (const Arrival& a : arrivals) booked.push_back({a.texel, group, a.light});
 }
 
+std::uint32_t group_of(const Particle& particle) {
+  return particle.group;
+}
+std::uint32_t group_of(const PolishedSuns::Start& start) {
+  return start.particle.group;
+}
+
 // One particle, from its lamp on.
 class LampWalk {
  public:
@@ -67,6 +76,11 @@ class LampWalk {
     ray_ = particle.ray, power_ = particle.power, punctual_ = particle.punctual;
     return go_on();
   }
+  // The same of one that is reflected by that triangle or ends.
+  std::uint64_t run(const PolishedSuns::Start& start) {
+    reflected_by_ = start.triangle;
+    return run(start.particle);
+  }
 
  private:
   std::uint64_t go_on() {
@@ -77,7 +91,9 @@ class LampWalk {
       ++rays;
       if (!hit || (leaves_ != kNoTexel && around_.goes_on(hit.distance, leaves_))) break;
       leaves_ = kNoTexel;
-      if (punctual_ && bounces_ == 0 && passes_glass(hit)) {
+      const bool starts = bounces_ == 0 && reflected_by_ != kNoTriangle;
+      if (starts && hit.triangle != reflected_by_) break;
+      if (!starts && punctual_ && bounces_ == 0 && passes_glass(hit)) {
         ++passes;
         continue;
       }
@@ -85,12 +101,14 @@ class LampWalk {
       if (bounces_ > 0 && !arrive(hit)) break;
       SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray_.direction);
       const bool passes_by = surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage;
+      if (starts && passes_by) break;
       if (!passes_by && (!surface.reflects || bounces_ >= t_.options.max_bounces)) break;
       const int before = bounces_;
       if (passes_by)
         ray_.origin = spawn_origin(surface, ray_.direction);
       else
         scatter(hit, surface);
+      if (starts && bounces_ == before) break;
       passes = bounces_ > before ? 0 : passes + 1;
       if (bounces_ > before) rays += split();
     }
@@ -167,6 +185,7 @@ class LampWalk {
       return;
     }
     const bool refracted = sample->lobe == Lobe::kRefraction;
+    if (reflected_by_ != kNoTriangle && bounces_ == 0 && refracted) power_ = Vec3(0);
     if (is_frosted(surface.shade) && (refracted || surface.shade.inside)) power_ = Vec3(0);  // that is paths'
     medium_.leave(surface.shade, refracted);
     if (sample->lobe == Lobe::kTransmission) {
@@ -220,6 +239,7 @@ class LampWalk {
   Vec3 power_{0};
   float first_ = 0;  // after the first reflection
   bool punctual_ = false;
+  std::uint32_t reflected_by_ = kNoTriangle;  // first
   Medium medium_;
   StraightGlass glass_;
   int bounces_ = 0;
@@ -233,7 +253,11 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
   const Context& context = stage.context;
   const Transport& t = around.transport();
   const Sources sources(t.accel.scene(), t.lights);
-  if (std::ranges::find(sources.kinds(), SourceKind::kNear) == sources.kinds().end()) return {};
+  const bool near = std::ranges::find(sources.kinds(), SourceKind::kNear) != sources.kinds().end();
+  std::uint64_t pilot = 0;
+  const PolishedSuns suns(t.accel, t.lights, context.seed + seeds::kPolished, pilot);
+  stage.count(pilot);
+  if (!near && suns.empty()) return {};
   while (light.particles < per_half) {
     const std::uint64_t first = light.particles, count = std::min(per_half - first, kUnit * (kUnits / kHalves));
     const std::size_t units = (count + kUnit - 1) / kUnit;  // of each half
@@ -245,11 +269,15 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
       std::uint64_t traced = 0;
       const std::uint64_t from = first + u / kHalves * kUnit, to = std::min(first + count, from + kUnit);
       for (std::uint64_t k = from; k < to && !context.stopped(); ++k) {
-        Sampler sampler(context.seed + seeds::kLampPaths, u % kHalves, static_cast<std::uint32_t>(k));
-        const Particle particle = sources.emit(SourceKind::kNear, sampler);
-        const std::size_t before = arrivals[u].size();
-        traced += LampWalk(texels, around, sampler, arrivals[u]).run(particle);
-        if (!light.booked[0].empty()) book(std::span(arrivals[u]).subspan(before), particle.group, booked[u]);
+        const auto follow = [&](std::uint64_t seed, const auto& emit) {
+          Sampler sampler(context.seed + seed, u % kHalves, static_cast<std::uint32_t>(k));
+          const auto particle = emit(sampler);
+          const std::size_t before = arrivals[u].size();
+          traced += LampWalk(texels, around, sampler, arrivals[u]).run(particle);
+          if (!light.booked[0].empty()) book(std::span(arrivals[u]).subspan(before), group_of(particle), booked[u]);
+        };
+        if (near) follow(seeds::kLampPaths, [&](Sampler& s) { return sources.emit(SourceKind::kNear, s); });
+        if (!suns.empty()) follow(seeds::kPolished + 1, [&](Sampler& s) { return suns.emit(s, traced); });
       }
       add_up(arrivals[u]);
       return traced;

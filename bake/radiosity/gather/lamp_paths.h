@@ -27,8 +27,8 @@ struct LampLight {
 // point light met by way of a mirror is found by no path from an eye, and so left out. What frosted glass spreads is
 // left to paths (is_frosted).
 //
-// Adds particles until each half has `per_half` of them. Does nothing where no lamp is near (LightSample::near): the
-// sun's and the sky's particles rarely come into a room. Error kStopped.
+// Adds particles until each half has `per_half` of them, of suns as many more. Does nothing where no lamp is near
+// (LightSample::near) and no sun can meet anything polished: others' particles rarely come into a room. Error kStopped.
 Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64_t per_half, const Stage& stage,
                    LampLight& light);
 

@@ -13,6 +13,7 @@ inline constexpr std::uint64_t kBounces = 0xb0;          // rays between patches
 inline constexpr std::uint64_t kGather = 0x9a7e;         // gathered directions
 inline constexpr std::uint64_t kBright = 0xb416;         // rays at bright texels, and points on these
 inline constexpr std::uint64_t kLampPaths = 0x1a39;      // particles from lamps
+inline constexpr std::uint64_t kPolished = 0x501d;       // particles of suns from polished surfaces
 inline constexpr std::uint64_t kSurvival = 0x50b1;       // rays that find out how often paths are worth going on
 inline constexpr std::uint64_t kPolygonLight = 0xd1ec;   // + the light's number: points on it
 inline constexpr std::uint64_t kSharpLight = 0x9f00;     // + the light's number: points of punctual lights with a size

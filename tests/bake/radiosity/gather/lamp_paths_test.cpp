@@ -100,10 +100,10 @@ TEST(LampPaths, CostNothingWhereNoLampIsNear) {
 
 enum class Glass : std::uint8_t { kThin, kSolid, kFrosted };
 
-class LampPathsBesideGlass : public testing::TestWithParam<Glass> {};
+class LampPathsBesideGlass : public testing::TestWithParam<std::tuple<Glass, bool>> {};
 
-// Lamps, a plinth that the floor's texels see from nearer than paths leave off, a pane or a block of glass and a
-// mirror: what rays and particles find together is what rays find alone, nothing of it twice.
+// Lamps or a sun, a plinth that the floor's texels see from nearer than paths leave off, a pane or a block of glass and
+// a mirror: what rays and particles find together is what rays find alone, nothing of it twice.
 TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
   SceneParts parts;
   const auto matt = parts.diffuse(Vec3(0.6f));
@@ -114,17 +114,23 @@ TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
   parts.quad("wall", matt, {-1, 0, -1}, {2, 0, 0}, {0, 2, 0});
   parts.quad("side", parts.add(polished(Vec3(0.9f), 1, 0.4f)), {-1, 0, 1}, {0, 0, -2}, {0, 2, 0});
   parts.box("plinth", parts.add(polished(Vec3(0.7f), 0, 0.5f)), {0.1f, 0, -0.3f}, {0.6f, 0.25f, 0.2f});
-  glass.solid = GetParam() != Glass::kThin;
-  if (GetParam() == Glass::kSolid) glass.roughness = 0;
+  const auto [kind, sunlit] = GetParam();
+  glass.solid = kind != Glass::kThin;
+  if (kind == Glass::kSolid) glass.roughness = 0;
   if (glass.solid)
     parts.box("block", parts.add(glass), {0.2f, 1e-3f, 0.4f}, {0.7f, 0.6f, 0.6f});
   else
     parts.quad("pane", parts.add(glass), {0.2f, 0, 0.5f}, {0.5f, 0, 0}, {0, 0.6f, 0});
-  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(500)), {-0.3f, 1.2f, -0.3f}, {0.3f, 0, 0}, {0, 0, 0.3f});
   Light bulb;
-  bulb.type = LightType::kPoint;
   bulb.position = Vec3(0.4f, 0.8f, 0.7f);
   bulb.intensity = Vec3(5);
+  if (sunlit) {
+    bulb.type = LightType::kDirectional;
+    bulb.direction = glm::normalize(Vec3(-0.6f, -1, -0.5f));
+    bulb.angular_radius_rad = 0.02f;
+  } else {
+    parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(500)), {-0.3f, 1.2f, -0.3f}, {0.3f, 0, 0}, {0, 0, 0.3f});
+  }
   parts.scene().lights = {bulb};
   Listed listed(parts.finish(), 0.1f);
   const Transport transport = listed.transport();
@@ -160,7 +166,9 @@ TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
   EXPECT_GT(by_particles, 0.3) << "particles bring too little of it: the test shows nothing";
   EXPECT_LT(by_particles, 0.9) << "rays do";
 }
-INSTANTIATE_TEST_SUITE_P(All, LampPathsBesideGlass, testing::Values(Glass::kThin, Glass::kSolid, Glass::kFrosted));
+INSTANTIATE_TEST_SUITE_P(All, LampPathsBesideGlass,
+                         testing::Combine(testing::Values(Glass::kThin, Glass::kSolid, Glass::kFrosted),
+                                          testing::Bool()));
 
 // A closed box of perfect metal fills with light until the lamp takes in what it sends: E = πL on every wall. What
 // comes straight from the lamp is no particle's.
