@@ -178,7 +178,7 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
     }
   }
   if (!task.options.stitch || is_dark(task.transport)) return {};
-  if (task.options.late()) {
+  if (task.options.over && task.options.over()) {
     task.context.warning(
         {"the seams of the lightmap are not stitched: --time left none for that; a longer one stitches them",
          WarningKind::kTimeOver});

@@ -198,7 +198,10 @@ class Bake {
   Status bake_lightmap() {
     RadiosityOptions radiosity = options_.radiosity;
     radiosity.enough = refined_enough(options_, budget_, later_s_, context_);
-    if (budget_.limited()) radiosity.left = [this] { return budget_.left() - later_s_; };
+    if (budget_.limited()) {
+      radiosity.left = [this] { return budget_.left() - later_s_; };
+      radiosity.over = [this] { return budget_.left() <= 0; };
+    }
     radiosity.directional = choose_directional(scene(), options_.directional, result_.omissions);
     radiosity.eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
     radiosity.held_out = held_out_eyes(prepared_.region, kLightmapEyes, context_.seed);

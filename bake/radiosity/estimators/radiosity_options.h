@@ -49,6 +49,8 @@ struct RadiosityOptions {
   // bounces have fewer rays, texels that no gather ray left keep the bounces' light, and nothing is verified.
   std::function<double()> left = {};
   bool late() const { return left && left() <= 0; }
+  // Whether no time at all is left, not even that of later stages: seams are stitched until then, which takes little.
+  std::function<bool()> over = {};
   // Where people's eyes are, scene space, m: the error is that of the frames which they see
   // (texels/frame_error.h). Empty: anywhere in the air in front of surfaces. `held_out` are others, by which the error
   // is verified; empty: other directions from the same.

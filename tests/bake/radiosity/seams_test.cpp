@@ -125,6 +125,17 @@ Steps floor_steps(const Baked& b) {
 class Seams : public testing::TestWithParam<Estimator> {};
 INSTANTIATE_TEST_SUITE_P(Estimators, Seams, testing::Values(Estimator::kReference, Estimator::kCached));
 
+// Where later stages are foretold to need what is left of --time they are, until it is over: that takes little.
+TEST(SeamsInTime, AreStitchedUntilItIsOver) {
+  const Scene scene = tiled_floor();
+  for (const bool over : {false, true}) {
+    RadiosityOptions options = options_of(Estimator::kCached, 16, true);
+    options.left = [] { return -1.0; };
+    options.over = [over] { return over; };
+    EXPECT_EQ(bake(scene, 0.1f, options).radiosity.report.seams.pairs > 0, !over);
+  }
+}
+
 TEST_P(Seams, TilesOfAFloorMeetWithoutSteps) {
   const Scene scene = tiled_floor();
   const Baked raw = bake(scene, 0.1f, options_of(GetParam(), 256, false));
