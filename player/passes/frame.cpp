@@ -116,8 +116,9 @@ Status Renderer::draw_see_through(const FrameContext& context, const SceneWeight
   ORIEL_TRY_VOID(glass_pass_.prepare(context, scene_pass_));
   frame_->drawn().bind();
   glViewport(0, 0, context.view.width, context.view.height);
-  return scene_pass_.draw_transparent(
-      context, weights, [&](const GlassBody&, std::size_t body) { return glass_pass_.draw(context, *frame_, body); });
+  return scene_pass_.draw_transparent(context, weights, [&](const GlassBody&, std::size_t body) {
+    return glass_pass_.draw(context, scene_pass_, *frame_, body);
+  });
 }
 
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {

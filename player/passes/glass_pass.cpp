@@ -17,13 +17,16 @@ enum GlassUnit {
   kGlassAround = 3,
   kGlassNormals = 4,
   kGlassShape = 5,
-  kGlassTints = 6
+  kGlassTints = 6,
+  kGlassThrough = 7
 };
 
 constexpr int kShapeSize = 128, kAroundSize = 256;  // texels a side of a face
-constexpr std::ptrdiff_t kMostAround = 16;  // bodies that the scene is drawn around; others use the nearest one's
-constexpr float kLeastOfPicture = 1e-4f;    // of it, that a body covers for that
-constexpr float kMostIor = 10;              // beyond it numbers run out
+constexpr std::ptrdiff_t kMostAround = 16;    // bodies that the scene is drawn around; others use the nearest one's
+constexpr float kLeastOfPicture = 1e-4f;      // of it, that a body covers for that
+constexpr float kMostIor = 10;                // beyond it numbers run out
+constexpr std::ptrdiff_t kMostWindows = 4;    // bodies of a frame that have one, 1 while something moves
+constexpr float kLeastBend = 8;               // pixels by which glass shifts things, for that
 constexpr int kLooks = 32, kPaneLooks = 12, kCoarseLooks = 4;  // of a lobe
 
 // As OpenGL has the faces of a cube.
@@ -108,6 +111,7 @@ Status GlassPass::prepare(const FrameContext& context, const ScenePass& scene_pa
   if (seen.empty()) return {};
   ORIEL_TRY_VOID(start(scene));
   std::sort(seen.begin(), seen.end());
+  choose_windows(context, seen);
   const bool whole = !scene.images().state().busy;
   for (const auto& [share, i] : seen) {
     Body& body = bodies_[i];
@@ -120,6 +124,20 @@ Status GlassPass::prepare(const FrameContext& context, const ScenePass& scene_pa
     body.around_of = scene.serial(), body.whole = whole;
   }
   return gpu::check_gl("drawing around glass");
+}
+
+void GlassPass::choose_windows(const FrameContext& context, std::span<const std::pair<float, std::size_t>> by_share) {
+  const auto& [scene, view, options, stats] = context;
+  for (Body& body : bodies_) body.window.reset();
+  std::ptrdiff_t left = options.coarse ? 1 : kMostWindows;
+  for (const auto& [share, i] : by_share) {
+    if (left == 0) break;
+    const GlassBody& body = scene.glass()[i];
+    if (body.pane) continue;
+    const float ior = std::clamp(scene.pack().materials[body.material].ior, 1.0f, kMostIor);
+    bodies_[i].window = window_of(body, ior, kLeastBend, view, scene.bounds());
+    left -= bodies_[i].window ? 1 : 0;
+  }
 }
 
 Status GlassPass::draw_shape(const FrameContext& context, std::size_t body) {
@@ -209,6 +227,44 @@ Status GlassPass::take_behind(const FrameTarget& frame, bool levels, FrameStats&
   return {};
 }
 
+Status GlassPass::draw_through(const FrameContext& context, const GlassWindow& window, const ScenePass& scene_pass) {
+  GpuScene& scene = context.scene;
+  const View& seen_from = window.view;
+  if (!through_ || IVec2(through_.width(), through_.height()) != IVec2(seen_from.width, seen_from.height)) {
+    gpu::TextureOptions options;
+    options.levels = gpu::mip_levels(seen_from.width, seen_from.height);
+    options.mag_filter = GL_LINEAR;
+    options.min_filter = GL_LINEAR_MIPMAP_NEAREST;
+    through_ = gpu::Texture2d(gpu::kRgba32f, seen_from.width, seen_from.height, nullptr, options);
+    through_depth_ = gpu::Texture2d(gpu::kDepthStencil, seen_from.width, seen_from.height, nullptr);
+    ORIEL_TRY_VOID(gpu::check_gl("making the image through glass"));
+    ORIEL_TRY(through_framebuffer_,
+              gpu::Framebuffer::create("the image through glass", &through_, &through_depth_, true));
+  }
+  through_framebuffer_.bind();
+  glViewport(0, 0, seen_from.width, seen_from.height);
+  clear_face(Vec4(scene.pack().sky, kClosest));
+  View beyond = seen_from;
+  beyond.clip_from_pack = window.clip;
+  const FrameContext through{scene, beyond, context.options, context.stats};
+  scene_pass.draw_reflected(through, {visible_batches(scene.opaque(), make_frustum(window.clip)), {}, {}});
+  if (has_levels_) through_.make_mipmaps();
+  return gpu::check_gl("drawing through glass");
+}
+
+// Depth there is as clip_from_view_to() has it.
+void GlassPass::set_window(const std::optional<GlassWindow>& window) const {
+  light_.set("u_window", window ? 1 : 0);
+  if (!window) return;
+  const View& view = window->view;
+  const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
+  light_.set("u_window_from_pack", view.clip_from_pack);
+  light_.set("u_window_size", size);
+  light_.set("u_window_tangents", Vec4(view.tangents, view.centre));
+  light_.set("u_window_depth", Vec3(-view.clip_from_view[2][2], view.clip_from_view[3][2], kClosest));
+  light_.set("u_window_pixels", 0.5f * std::min(size.x / view.tangents.x, size.y / view.tangents.y));
+}
+
 std::size_t GlassPass::nearest_around(const GpuScene& scene, std::size_t body) const {
   std::size_t best = body;
   float nearest = std::numeric_limits<float>::max();
@@ -276,12 +332,14 @@ void GlassPass::shade(const FrameContext& context, std::size_t index, bool insid
   behind_.bind(kGlassBehind);
   bodies_[around].around.bind(kGlassAround);
   if (!body.pane) bodies_[index].shape.bind(kGlassShape);
+  through_.bind(kGlassThrough);
   constexpr std::pair<const char*, GlassUnit> kUnits[] = {
       {"u_places", kGlassPlaces}, {"u_normals", kGlassNormals},         {"u_tints", kGlassTints},
       {"u_behind", kGlassBehind}, {"u_reflectance", kGlassReflectance}, {"u_around", kGlassAround},
-      {"u_shape", kGlassShape}};
+      {"u_shape", kGlassShape},   {"u_through", kGlassThrough}};
   for (const auto& [name, unit] : kUnits) light_.set(name, static_cast<int>(unit));
   light_.set("u_inside", inside ? 1 : 0);
+  set_window(bodies_[index].window);
   light_.set("u_clip_from_pack", view.clip_from_pack);
   light_.set("u_eye", view.eye);
   light_.set("u_levels", has_levels_ ? 1 : 0);
@@ -297,7 +355,8 @@ void GlassPass::shade(const FrameContext& context, std::size_t index, bool insid
   ++stats.draws;
 }
 
-Status GlassPass::draw(const FrameContext& context, const FrameTarget& frame, std::size_t index) {
+Status GlassPass::draw(const FrameContext& context, const ScenePass& scene_pass, const FrameTarget& frame,
+                       std::size_t index) {
   const auto& [scene, view, options, stats] = context;
   const GlassBody& body = scene.glass()[index];
   const NdcRect screen = project_box(view.clip_from_pack, body.bounds);
@@ -307,6 +366,7 @@ Status GlassPass::draw(const FrameContext& context, const FrameTarget& frame, st
                      std::ranges::any_of(*since_, [&](const NdcRect& drawn) { return overlap(drawn, screen); });
   if (stale) ORIEL_TRY_VOID(take_behind(frame, levels, stats));
   since_->push_back(screen);
+  if (const auto& window = bodies_[index].window) ORIEL_TRY_VOID(draw_through(context, *window, scene_pass));
   const bool inside = !body.pane && view.eye.w > 0 && scene.is_inside_glass(body, Vec3(view.eye));
   gpu::RasterState state;
   state.cull = body.pane ? gpu::Cull::kNone : inside ? gpu::Cull::kFront : gpu::Cull::kBack;
@@ -330,7 +390,9 @@ Status GlassPass::draw(const FrameContext& context, const FrameTarget& frame, st
 
 std::uint64_t GlassPass::bytes() const {
   std::uint64_t sum = depth_.bytes();
-  for (const gpu::Texture2d* t : {&behind_, &places_, &normals_, &tints_, &nearest_, &shaded_}) sum += t->bytes();
+  for (const gpu::Texture2d* t :
+       {&behind_, &places_, &normals_, &tints_, &nearest_, &shaded_, &through_, &through_depth_})
+    sum += t->bytes();
   for (const Body& body : bodies_) sum += body.shape.bytes() + body.around.bytes();
   return sum;
 }

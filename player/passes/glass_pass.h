@@ -1,11 +1,13 @@
 // Bodies of solid glass: each shows what the eye sees through it, refracted, absorbed and, frosted, blurred by the
-// distance behind it. Rays that leave it see the frame so far, by its depth, and beyond it the scene as drawn once from
-// the body's middle. Frosted panes likewise, without refraction.
+// distance behind it. Rays that leave it see the frame so far, by its depth, beyond it the scene as drawn from the
+// apparent eye through the face that they entered by, and where that does not show it as drawn once from the body's
+// middle. Frosted panes likewise, without refraction.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "player/passes/glass_window.h"
 #include "player/passes/scene_pass.h"
 #include "player/passes/targets.h"
 
@@ -21,7 +23,7 @@ class GlassPass {
   Status prepare(const FrameContext& context, const ScenePass& scene_pass);
   // One of GpuScene::glass() that prepare() has seen, over the frame, in place of what lies behind it. Leaves the frame
   // bound. Errors of the driver.
-  Status draw(const FrameContext& context, const FrameTarget& frame, std::size_t body);
+  Status draw(const FrameContext& context, const ScenePass& scene_pass, const FrameTarget& frame, std::size_t body);
   std::uint64_t bytes() const;
 
  private:
@@ -29,7 +31,8 @@ class GlassPass {
     gpu::CubeTexture shape;
     gpu::CubeTexture around;  // as seen from its centre
     std::uint64_t around_of = 0;
-    bool whole = false;  // all images were there
+    bool whole = false;                 // all images were there
+    std::optional<GlassWindow> window;  // of the frame
   };
   Status compile();
   Status start(const GpuScene& scene);
@@ -42,6 +45,11 @@ class GlassPass {
   void draw_surface(const FrameContext& context, const GlassBody& body, gpu::Cull cull) const;
   void shade(const FrameContext& context, std::size_t body, bool inside) const;
   void set_body(const GpuScene& scene, const GlassBody& body, const FrameOptions& options) const;
+  // Chooses the windows of a frame. by_share: bodies in view, those that cover most of the picture first.
+  void choose_windows(const FrameContext& context, std::span<const std::pair<float, std::size_t>> by_share);
+  // What rays see through the window, into through_.
+  Status draw_through(const FrameContext& context, const GlassWindow& window, const ScenePass& scene_pass);
+  void set_window(const std::optional<GlassWindow>& window) const;
   std::size_t nearest_around(const GpuScene& scene, std::size_t body) const;
 
   gpu::Dialect dialect_{};
@@ -53,6 +61,8 @@ class GlassPass {
   gpu::Framebuffer face_;
   gpu::Texture2d behind_, places_, normals_, tints_, nearest_, shaded_;  // of the frame's size
   gpu::Framebuffer behind_framebuffer_, surfaces_framebuffer_, shaded_framebuffer_;
+  gpu::Texture2d through_, through_depth_;  // of the frame's size
+  gpu::Framebuffer through_framebuffer_;
   bool has_levels_ = false;
   std::optional<std::vector<NdcRect>> since_;  // drawn since behind_ was taken; none: it was not
 };

@@ -184,9 +184,15 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
     stats.holes += count.counted;
   }
   const gpu::Texture2d& depth = target.frame != nullptr ? target.frame->depth : target.image->depth;
-  if (blurs && !even && !maps) timed(clock, Pass::kFill, [&] { convolve_pass_.cut(inner.context, image, depth); });
+  if (blurs && !even && !maps) {
+    const bool whole = !reflector.seen || !sets_hold(inner.context, target);
+    timed(clock, Pass::kFill, [&] { convolve_pass_.cut(inner.context, image, depth, whole); });
+  }
   if ((maps && options.fill) || (blurs && !even))
-    timed(clock, Pass::kFill, [&] { fill_pass_.draw(rect, image.target, blurs && !even, stats); });
+    timed(clock, Pass::kFill, [&] {
+      const auto holes = maps ? FillPass::Holes::kHidden : FillPass::Holes::kBeside;
+      fill_pass_.draw({rect, image.target, holes, blurs && !even}, stats);
+    });
   if (image.even) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw_even(inner.context, image); });
   if (rect.coarse > 1) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw(work.context, image); });
   target.bind(view);

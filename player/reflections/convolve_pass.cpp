@@ -124,7 +124,8 @@ void ConvolvePass::draw_into(const ReflectedImage& image, const gpu::Texture2d& 
   glBindVertexArray(no_vertices_.name());
 }
 
-void ConvolvePass::cut(const FrameContext& context, const ReflectedImage& image, const gpu::Texture2d& depth) const {
+void ConvolvePass::cut(const FrameContext& context, const ReflectedImage& image, const gpu::Texture2d& depth,
+                       bool whole) const {
   const Reflector& reflector = context.scene.pack().reflectors[image.reflector.index];
   draw_into(image, image.target.sharp, IVec2(image.rect.width, image.rect.height));
   cut_.use();
@@ -135,6 +136,7 @@ void ConvolvePass::cut(const FrameContext& context, const ReflectedImage& image,
   cut_.set("u_depth", 0);
   image.target.depth.bind(1);
   cut_.set("u_image_depth", 1);
+  cut_.set("u_whole", whole ? 1 : 0);
   cut_.set("u_view_size", IVec2(context.view.width, context.view.height));
   cut_.set("u_clip_from_view", context.view.clip_from_view);
   glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -30,8 +30,9 @@ class ConvolvePass {
  public:
   static Result<ConvolvePass> create(gpu::Dialect dialect);
   // Pixels beside the reflector (its bounds) become holes of target.sharp where something stands before its plane: of
-  // mirrored geometry, which knows no edge. depth: of what the reflector is seen in, context.view.
-  void cut(const FrameContext& context, const ReflectedImage& image, const gpu::Texture2d& depth) const;
+  // mirrored geometry, which knows no edge. depth: of what the reflector is seen in, context.view. whole: the image is
+  // of the whole scene, else of what is seen in the reflector, and past its edges what misses that is a hole too.
+  void cut(const FrameContext& context, const ReflectedImage& image, const gpu::Texture2d& depth, bool whole) const;
   // target.filled, all levels, to target.blurred.
   void draw(const FrameContext& context, const ReflectedImage& image) const;
   // The image, which is of the context's view, to target.blurred by one kernel.

@@ -9,7 +9,7 @@ namespace oriel {
 namespace {
 
 // Light nearer than the farthest around a hole by more than this factor is another thing's, and does not flow into it.
-constexpr float kReach = 1.25f;
+constexpr float kReach = 1.25f, kAll = 1e30f;
 
 // Only that level can be read: drawing into another one of the same texture is defined then.
 void bind_level(const gpu::Texture2d& texture, int unit, int level) {
@@ -34,13 +34,15 @@ Result<FillPass> FillPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void FillPass::draw(const ImageRect& rect, const ImageTarget& target, bool with_levels, FrameStats& stats) const {
+void FillPass::draw(const Fill& fill, FrameStats& stats) const {
+  const auto& [rect, target, holes, with_levels] = fill;
+  const float reach = holes == Holes::kHidden ? kReach : kAll;
   // Levels round up, to a last one of a single pixel: the textures' sizes are powers of two and have as many.
   const int levels = std::bit_width(static_cast<unsigned>(std::max(rect.width, rect.height) - 1)) + 1;
-  const auto size_at = [&](int level) {
+  const auto size_at = [&rect = rect](int level) {
     return IVec2(gpu::level_size(rect.width, level), gpu::level_size(rect.height, level));
   };
-  const auto draw_level = [&](const gpu::Texture2d& texture, int level) {
+  const auto draw_level = [&, &target = target](const gpu::Texture2d& texture, int level) {
     target.level_framebuffer.attach_color_level(texture, level);
     glViewport(0, 0, size_at(level).x, size_at(level).y);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -49,10 +51,10 @@ void FillPass::draw(const ImageRect& rect, const ImageTarget& target, bool with_
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
   target.level_framebuffer.bind();
-  const auto pull = [&](const gpu::Texture2d& texture, float reach) {
+  const auto pull = [&, &target = target](const gpu::Texture2d& texture, float as_far) {
     pull_.use();
     pull_.set("u_source", 0);
-    pull_.set("u_reach", reach);
+    pull_.set("u_reach", as_far);
     for (int level = 1; level < levels; ++level) {
       bind_level(texture, 0, level - 1);
       pull_.set("u_source_size", size_at(level - 1));
@@ -60,9 +62,9 @@ void FillPass::draw(const ImageRect& rect, const ImageTarget& target, bool with_
     }
     bind_all_levels(texture, 0, levels);
   };
-  pull(target.sharp, kReach);
+  pull(target.sharp, reach);
   push_.use();
-  push_.set("u_reach", kReach);
+  push_.set("u_reach", reach);
   push_.set("u_fine", 0);
   push_.set("u_coarse", 1);
   for (int level = levels - 1; level >= 0; --level) {
@@ -75,7 +77,7 @@ void FillPass::draw(const ImageRect& rect, const ImageTarget& target, bool with_
   }
   bind_all_levels(target.sharp, 0, levels);
   bind_all_levels(target.filled, 1, levels);
-  if (with_levels) pull(target.filled, 1e30f);
+  if (with_levels) pull(target.filled, kAll);
 }
 
 }  // namespace oriel

@@ -10,9 +10,18 @@ namespace oriel {
 class FillPass {
  public:
   static Result<FillPass> create(gpu::Dialect dialect);
+  // What a hole is: something that nearer things hid, so that what lies behind flows into it from far around, or a
+  // place beside the reflector, which shows what the reflector does next to it.
+  enum class Holes { kHidden, kBeside };
   // Fills target.filled from level 0 of target.sharp: no pixel keeps a = 0 unless all have it. Its coarser levels are
   // averages of the finer ones if with_levels, undefined else.
-  void draw(const ImageRect& rect, const ImageTarget& target, bool with_levels, FrameStats& stats) const;
+  struct Fill {
+    const ImageRect& rect;
+    const ImageTarget& target;
+    Holes holes = Holes::kHidden;
+    bool with_levels = false;
+  };
+  void draw(const Fill& fill, FrameStats& stats) const;
 
  private:
   gpu::Program pull_, push_;

@@ -1,11 +1,12 @@
 // Pixels of M beside the reflector become holes, to be filled from those on it, where something stands between the eye and the
 // plane: past a wall that meets the reflector at its edge M shows what lies behind that wall, which no lobe sees. Past a free edge
-// lobes see what M shows there, if that is a surface: the mirrored scene holds what is seen on the reflector, and else the sky.
+// lobes see what M shows there; if M does not hold the whole scene but what is seen on the reflector, where that is a surface.
 #include "passes/screen_blur_width.glsl"
 uniform mat4 u_reflector_from_view;
 uniform vec4 u_reflector_bounds;  // on its plane: lower, upper
 uniform sampler2D u_depth;        // of what the reflector is seen in
 uniform sampler2D u_image_depth;  // of M
+uniform bool u_whole;             // M holds the whole scene
 uniform ivec2 u_view_size;        // of that, pixels
 uniform mat4 u_clip_from_view;
 layout(location = 0) out vec4 o_light;
@@ -32,7 +33,7 @@ void main() {
   vec2 margin = min(0.5 * fwidth(p), 0.25 * (u_reflector_bounds.zw - u_reflector_bounds.xy));  // rounding decides about half a pixel
   if (on_reflector(hit, margin)) discard;
   // At the very edge the depth is the reflector's own: what stands there is seen a little further.
-  bool open = texelFetch(u_image_depth, ivec2(gl_FragCoord.xy), 0).r < 1.0;  // M's scene holds what the reflector shows
+  bool open = u_whole || texelFetch(u_image_depth, ivec2(gl_FragCoord.xy), 0).r < 1.0;
   for (int k = 0; k < 9 && open; ++k) {
     PlaneHit near = plane_hit(gl_FragCoord.xy + kAround * vec2(k % 3 - 1, k / 3 - 1));
     open = on_reflector(near, margin) || free_before(near);

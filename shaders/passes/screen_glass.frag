@@ -1,6 +1,7 @@
 // What is seen through a body of glass, in place of what lies behind it: the eye ray is refracted into it, goes to and fro within
-// it, and what leaves it at each surface sees the scene: on the screen where that shows it, else as it is seen from the body's
-// middle. Frosted panes spread it like what they reflect, mirrored at the pane.
+// it, and what leaves it at each surface sees the scene: on the screen where that shows it, else through the window, the face that it
+// entered by as seen from the apparent eye (player/passes/glass_window.h), else as it is seen from the body's middle.
+// Frosted panes spread it like what they reflect, mirrored at the pane.
 #define GLASS_PLANES 24
 #include "lib/glass.glsl"
 #include "lib/reflectance.glsl"
@@ -33,6 +34,13 @@ uniform bool u_levels;              // its coarser levels are there
 uniform vec2 u_behind_size;         // pixels in use
 uniform float u_far;                // metres
 uniform float u_pixels_per_tangent;
+uniform bool u_window;              // there is one
+uniform mat4 u_window_from_pack;    // its clip space
+uniform sampler2D u_through;        // as u_around, by pixel of the window
+uniform vec2 u_window_size;         // pixels
+uniform vec4 u_window_tangents;     // of its view: half the size, and the middle
+uniform vec3 u_window_depth;        // depth there is x + y / metres along the view; z: 1 / the distance of the sky
+uniform float u_window_pixels;      // per tangent
 uniform samplerCube u_around;       // light, a 1 / distance, 0 for the sky
 uniform vec3 u_around_centre;
 uniform float u_around_size;        // texels a side
@@ -44,37 +52,59 @@ const int kFrostedCrossings = 3;
 const float kLeast = 0.004;     // of the light: what brings less is not followed
 const float kSmooth = 1.5;      // pixels between rays
 const float kWidestLook = 0.5;  // radians, of one of a pane's: the last ones stand for all of a lobe's tail
-const int kDoublings = 8, kPaneDoublings = 12;
+const int kDoublings = 8, kPaneDoublings = 12, kNarrowings = 8;
 const float kFaint = 0.1;       // of it: less is seen from the body's middle
 const int kSteps = 64;          // of a ray over the screen
 const int kFrostedSteps = 8;
 const float kThickness = 0.05;  // of its distance: a surface this far before a ray is not met
 const float kPaneThickness = 0.005;  // a pane's frame is about as near, and covers what is behind it
 
-// As it is seen from the middle of the body: first how far the ray comes before it passes what is seen there, in steps that double,
-// then where it leaves the sphere on which that lies.
+// How far a ray is beyond what is seen from the middle of the body, in terms of inverse distance: positive behind it.
+float beyond_around(vec3 at) { return textureLod(u_around, at, 0.0).a * length(at) - 1.0; }
+
+// As it is seen from the middle of the body: where the ray passes what is seen there. First in steps that double, then by false
+// position between the last place before it and the first behind it: what is seen at a small angle is found as well. A ray that starts
+// behind what is seen, or passes nothing, leaves the sphere on which that lies.
 vec3 light_around(vec3 origin, vec3 direction, float spread) {
   vec3 from = origin - u_around_centre;
-  float along = dot(from, direction), apart = dot(from, from) - along * along, inverse = 0.0;
+  float low = 0.0, high = -1.0, before = beyond_around(from), behind = 0.0;
   int doublings = u_pane ? kPaneDoublings : kDoublings;  // what is behind a pane may be near beside its width
-  for (int i = 0; i < doublings; ++i) {
-    float way = 64.0 * u_radius * exp2(float(i - doublings));
-    vec3 at = from + way * direction;
-    if (textureLod(u_around, at, 0.0).a * length(at) < 1.0) continue;
-    inverse = 1.0 / way;
-    break;
+  for (int i = 0; i < doublings && before < 0.0; ++i) {
+    float way = 64.0 * u_radius * exp2(float(i - doublings)), beyond = beyond_around(from + way * direction);
+    if (beyond >= 0.0) {
+      high = way, behind = beyond;
+      break;
+    }
+    low = way, before = beyond;
   }
-  for (int i = 0; i < 3; ++i) {
-    float seen = textureLod(u_around, direction + inverse * from, 0.0).a;
-    if (seen > 1e-12) inverse = 1.0 / max(sqrt(max(1.0 / (seen * seen) - apart, 0.0)) - along, 1e-3 / seen);
+  vec3 towards = direction;
+  if (high > 0.0) {
+    for (int i = 0; i < kNarrowings; ++i) {
+      float share = i % 2 == 0 ? clamp(before / (before - behind), 0.02, 0.98) : 0.5;
+      float way = mix(low, high, share), beyond = beyond_around(from + way * direction);
+      if (beyond < 0.0) low = way, before = beyond;
+      else high = way, behind = beyond;
+    }
+    towards = from + mix(low, high, before / (before - behind)) * direction;
+  } else {
+    float along = dot(from, direction), apart = dot(from, from) - along * along, inverse = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      float seen = textureLod(u_around, direction + inverse * from, 0.0).a;
+      if (seen > 1e-12) inverse = 1.0 / max(sqrt(max(1.0 / (seen * seen) - apart, 0.0)) - along, 1e-3 / seen);
+    }
+    towards = direction + inverse * from;
   }
-  return textureLod(u_around, direction + inverse * from, log2(max(0.5 * spread * u_around_size, 1.0))).rgb;
+  return textureLod(u_around, towards, log2(max(0.5 * spread * u_around_size, 1.0))).rgb;
 }
 
 // Of the nearest pixel: between near and far ones there is nothing.
-float depth_at(vec2 ndc) {
-  ivec2 pixel = clamp(ivec2((0.5 * ndc + 0.5) * u_behind_size), ivec2(0), ivec2(u_behind_size) - 1);
-  return 2.0 * texelFetch(u_behind, pixel, 0).a - 1.0;
+float depth_at(bool window, vec2 ndc) {
+  vec2 size = window ? u_window_size : u_behind_size;
+  ivec2 pixel = clamp(ivec2((0.5 * ndc + 0.5) * size), ivec2(0), ivec2(size) - 1);
+  if (!window) return 2.0 * texelFetch(u_behind, pixel, 0).a - 1.0;
+  float inverse = texelFetch(u_through, pixel, 0).a;
+  vec2 tangent = u_window_tangents.zw + u_window_tangents.xy * (2.0 * (vec2(pixel) + 0.5) / size - 1.0);
+  return inverse <= u_window_depth.z ? 1.0 : u_window_depth.x + u_window_depth.y * inverse * length(vec3(tangent, 1.0));
 }
 
 // The sky is met behind everything.
@@ -82,33 +112,36 @@ bool is_near(float depth, float surface, float thickness) {
   return surface >= 1.0 || depth - surface <= thickness * max(1.0 - surface, 1e-7);
 }
 
-// Along the screen from a to b, normalised device coordinates: the share of the way at which the ray meets what is seen there; -1
+// Along the screen, or the window, from a to b, normalised device coordinates: the share of the way at which the ray meets what is seen there; -1
 // where it leaves the screen without, -2 where something nearer hides it there. Steps of a pixel; frosted: few, that
 // grow with the way.
-float meet(vec3 a, vec3 b, bool frosted) {
+float meet(bool window, vec3 a, vec3 b, bool frosted) {
   vec2 way = b.xy - a.xy;
   float end = 1.0;
   for (int c = 0; c < 2; ++c)
     if (abs(way[c]) > 1e-9) end = min(end, max((sign(way[c]) - a[c]) / way[c], 0.0));
-  int steps = clamp(int(0.5 * length(end * way * u_behind_size)), 2, frosted ? kFrostedSteps : kSteps);
+  int steps = clamp(int(0.5 * length(end * way * (window ? u_window_size : u_behind_size))), 2, frosted ? kFrostedSteps : kSteps);
   float before = 0.0;
-  bool in_front = a.z <= depth_at(a.xy);
+  float start = depth_at(window, a.xy);
+  bool in_front = a.z <= start;
+  float thickness = u_pane ? kPaneThickness : kThickness;
+  if (!in_front && is_near(a.z, start, thickness)) return 0.0;  // the glass stands on it
   for (int i = 1; i <= steps; ++i) {
     float share = float(i) / float(steps), at = end * (frosted ? share * share : share);
     vec3 p = mix(a, b, at);
-    float surface = depth_at(p.xy);
+    float surface = depth_at(window, p.xy);
     bool behind = p.z >= surface;
-    if (behind && !in_front && is_near(p.z, surface, u_pane ? kPaneThickness : kThickness)) return at;
+    if (behind && !in_front && is_near(p.z, surface, thickness)) return at;
     if (behind && in_front) {
       float low = before, high = at;
       for (int k = 0; k < 6; ++k) {
         float middle = 0.5 * (low + high);
         vec3 m = mix(a, b, middle);
-        if (m.z >= depth_at(m.xy)) high = middle;
+        if (m.z >= depth_at(window, m.xy)) high = middle;
         else low = middle;
       }
       // What begins nearer than the ray was in front is beside it.
-      if (is_near(mix(a, b, low).z, depth_at(mix(a, b, high).xy), kThickness)) return high;
+      if (is_near(mix(a, b, low).z, depth_at(window, mix(a, b, high).xy), kThickness)) return high;
     }
     in_front = !behind;
     before = at;
@@ -137,26 +170,48 @@ vec3 light_behind(vec2 ndc, float depth, float pixels) {
 float g_least_pixels = 1e9;  // between rays of the lobe where they meet something
 float g_near = 0.0;          // rays that are no farther apart than that allows for pixels beside each other
 
+// Where along the screen or the window a ray meets something, and how far it has come: xyz, metres. a: of meet(), -3 where the ray
+// does not begin there or goes towards the eye.
+vec4 meet_in(bool window, vec3 origin, vec3 direction, bool frosted, out float metres) {
+  mat4 clip = window ? u_window_from_pack : u_clip_from_pack;
+  vec4 from = clip * vec4(origin, 1.0), way = clip * vec4(direction, 0.0);
+  bool perspective = window || u_eye.w > 0.0;
+  bool away = perspective ? from.w > 0.0 && way.w > 1e-3 : way.z > 0.0;
+  vec3 a = from.xyz / from.w;
+  metres = 0.0;
+  if (!away || any(greaterThan(abs(a.xy), vec2(1.0)))) return vec4(0.0, 0.0, 0.0, -3.0);
+  vec3 b = perspective ? way.xyz / way.w : (from + u_far * way).xyz;
+  float at = meet(window, a, b, frosted);
+  metres = perspective ? at / max(1.0 - at, 1e-6) * from.w / way.w : at * u_far;
+  return vec4(mix(a, b, max(at, 0.0)), at);
+}
+
+// Pixels between rays of a bundle of `spread` radians that far away.
+float pixels_apart(bool window, vec3 point, float metres, float spread) {
+  vec4 there = (window ? u_window_from_pack : u_clip_from_pack) * vec4(point, 1.0);
+  return spread * metres * (window ? u_window_pixels : u_pixels_per_tangent) / (window || u_eye.w > 0.0 ? there.w : 1.0);
+}
+
 // Light from along a ray that has left the glass; a: 0 where something hides what a frosted ray would see, so that others tell.
 // spread: of the bundle, radians.
 vec4 look(vec3 origin, vec3 direction, float spread, bool frosted) {
-  vec4 from = u_clip_from_pack * vec4(origin, 1.0), way = u_clip_from_pack * vec4(direction, 0.0);
-  bool perspective = u_eye.w > 0.0;
-  bool away = perspective ? from.w > 0.0 && way.w > 1e-3 : way.z > 0.0;
-  vec3 a = from.xyz / from.w;
-  if (away && all(lessThanEqual(abs(a.xy), vec2(1.0)))) {
-    vec3 b = perspective ? way.xyz / way.w : (from + u_far * way).xyz;
-    float at = meet(a, b, frosted);
-    if (at < -1.5 && frosted && !u_pane) return vec4(0.0);
-    if (at >= 0.0) {
-      float along = perspective ? at / max(1.0 - at, 1e-6) * from.w / way.w : at * u_far;
-      float pixels = spread * along * u_pixels_per_tangent / (perspective ? from.w + along * way.w : 1.0);
+  float metres, pixels;
+  vec4 met = meet_in(false, origin, direction, frosted, metres);
+  if (met.a >= 0.0) {
+    pixels = pixels_apart(false, origin + metres * direction, metres, spread);
+    g_least_pixels = min(g_least_pixels, pixels);
+    if (pixels <= kSmooth) g_near += 1.0;
+    return vec4(light_behind(met.xy, met.z, pixels), 1.0);
+  }
+  if (u_window) {
+    vec4 through = meet_in(true, origin, direction, frosted, metres);
+    if (through.a >= 0.0) {
+      pixels = pixels_apart(true, origin + metres * direction, metres, spread);
       g_least_pixels = min(g_least_pixels, pixels);
-      if (pixels <= kSmooth) g_near += 1.0;
-      vec3 met = mix(a, b, at);
-      return vec4(light_behind(met.xy, met.z, pixels), 1.0);
+      return vec4(textureLod(u_through, 0.5 * through.xy + 0.5, u_levels ? log2(max(0.7 * pixels, 1.0)) : 0.0).rgb, 1.0);
     }
   }
+  if (met.a == -2.0 && frosted && !u_pane) return vec4(0.0);
   return vec4(light_around(origin, direction, spread), 1.0);
 }
 

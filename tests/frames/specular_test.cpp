@@ -1,6 +1,7 @@
 // What glossy floors and mirrors show, beside path-traced frames: bounds on S.
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -41,9 +42,10 @@ TEST_F(SpecularFrames, GalleryByMirroredGeometry) {
   const auto floor = compare("floor")["glossy"];
   std::printf("floor: S net %.3f, nRMSE %.3f, FLIP %.4f\n", floor["S"]["net"].get<double>(),
               floor["S"]["nRMSE"].get<double>(), floor["flip"].get<double>());
-  EXPECT_LE(floor["S"]["net"], 0.25);
-  EXPECT_LE(floor["S"]["nRMSE"], 0.2);
-  EXPECT_LE(floor["flip"], 0.07);
+  // Not by the relative error: nearly all of it is that of one pixel at a door, whose S is 1/4000 of the mean.
+  EXPECT_LE(std::abs(floor["S"]["bias"].get<double>()), 0.005);  // 0.0084 with rims along the walls' feet
+  EXPECT_LE(floor["S"]["nRMSE"], 0.15);
+  EXPECT_LE(floor["flip"], 0.05);
   const auto off = compare("floor", "--reflections off");
   EXPECT_GT(off["frame"]["flip"], 0.15) << "the checker can fail";
   EXPECT_FALSE(off.contains("glossy"));

@@ -139,6 +139,18 @@ TEST_F(Blurred, BesideAWallAtItsEdgeAReflectorShowsNothingOfWhatLiesBehind) {
   EXPECT_LT(blue, 0.01f * kRed.x);
 }
 
+// And a bright sky, which the reflector shows elsewhere, does not flow in along the wall's foot because it is far away.
+TEST_F(Blurred, BesideAWallAtItsEdgeAReflectorShowsNothingOfTheSky) {
+  Pack pack = pack_with_lamps();
+  pack.sky = kGreen;
+  add_quad(pack, {1, -1, 0}, {0, 0, 0.3f}, {0, 2, 0}, 1, -1);
+  const Picture p = draw_mk(pack, camera_at({-0.9f, 0, 1}, {0.8f, 0, 0}));
+  expect_red_feet(p);
+  float green = 0;
+  for (int x = 0; x < kWidth; ++x) green = std::max(green, p.at(x, kHeight / 2).y);
+  EXPECT_GT(green, 0.9f * kGreen.y);
+}
+
 // Past a free edge its lobes see what there is: half of a table's top shows what the whole one does, up to its edge.
 TEST_F(Blurred, AFreeEdgeChangesNothing) {
   Pack pack = pack_with_lamps();

@@ -5,33 +5,12 @@
 #include <random>
 
 #include "player/scene/glass_bodies.h"
-#include "tests/player/frame_fixture.h"
+#include "tests/player/glass_fixture.h"
 
 namespace oriel {
 namespace {
 
-using testing::FrameTest;
-using testing::Picture;
-
-// Material 0 is the glass; nothing reflects outside, so that what passes is all of the light.
-Pack glass_pack(float ior, float roughness, const Vec3& absorption = Vec3(0)) {
-  Pack pack;
-  Material glass;
-  glass.transmission = 1, glass.ior = ior, glass.roughness = roughness;
-  pack.materials = {glass};
-  pack.solids = {{0, Vec3(1), absorption}};
-  return pack;
-}
-
-void add_box(Pack& pack, const Vec3& lower, const Vec3& upper, std::uint32_t material = 0) {
-  const Vec3 x(upper.x - lower.x, 0, 0), y(0, upper.y - lower.y, 0), z(0, 0, upper.z - lower.z);
-  testing::add_quad(pack, lower, y, x, material, -1);
-  testing::add_quad(pack, lower + z, x, y, material, -1);
-  testing::add_quad(pack, lower, z, y, material, -1);
-  testing::add_quad(pack, lower + x, y, z, material, -1);
-  testing::add_quad(pack, lower, x, z, material, -1);
-  testing::add_quad(pack, lower + y, z, x, material, -1);
-}
+using namespace testing;
 
 void add_ball(Pack& pack, const Vec3& centre, float radius, bool inwards = false) {
   constexpr int kRings = 24, kSides = 48;
@@ -61,30 +40,6 @@ void add_ball(Pack& pack, const Vec3& centre, float radius, bool inwards = false
     }
   part.index_count = static_cast<std::uint32_t>(mesh.indices.size()) - part.first_index;
   mesh.parts.push_back(part);
-}
-
-std::uint32_t add_lamp(Pack& pack, const Vec3& cd_m2) {
-  Material lamp;
-  lamp.base_color = Vec3(0);
-  lamp.emission = cd_m2;
-  pack.materials.push_back(lamp);
-  return static_cast<std::uint32_t>(pack.materials.size() - 1);
-}
-
-Camera camera_at(const Vec3& eye, const Vec3& target, float fov = 0.8f) {
-  Camera camera;
-  camera.eye = eye;
-  camera.forward = glm::normalize(target - eye);
-  camera.vertical_fov_rad = fov;
-  return camera;
-}
-
-Vec3 pixel_ray(const Camera& camera, int x, int y, int width, int height) {
-  const Vec3 right = glm::normalize(glm::cross(camera.forward, Vec3(0, 1, 0))), up = glm::cross(right, camera.forward);
-  const float half = std::tan(0.5f * camera.vertical_fov_rad);
-  const float u = (2 * (static_cast<float>(x) + 0.5f) - static_cast<float>(width)) / static_cast<float>(height);
-  const float v = 1 - 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
-  return glm::normalize(camera.forward + half * (u * right + v * up));
 }
 
 std::vector<GlassBody> bodies_of(const Pack& pack, std::vector<std::uint32_t>& indices,
