@@ -16,6 +16,7 @@
 namespace oriel {
 namespace {
 
+constexpr std::size_t kMostTriangles = 16;      // of a lamp: finer ones leave no room for others
 constexpr double kStraight = 1e-4;              // sine of the angle at a corner that is none
 constexpr double kLeastShare = 1e-4;            // of a reflector's light from lamps: less is not worth an emitter
 constexpr double kMostParted = 0.25;            // see LightOnReflector, of its worth
@@ -203,7 +204,7 @@ void fill_uncovered(const Nodes& nodes, std::vector<float>& shares) {
 
 // Lamps that stay in a reflector's maps, by what keeps them there.
 struct LeftIn {
-  std::size_t too_fine = 0;   // of more triangles than a reflector may list polygons
+  std::size_t too_fine = 0;   // of more triangles than kMostTriangles
   std::size_t too_faint = 0;  // beyond those that light it most, whose visibility is computed
   std::size_t parted = 0;     // of which narrow lobes see other shares than the points do
   std::size_t too_many = 0;   // beyond the polygons that it may list
@@ -214,7 +215,7 @@ struct LeftIn {
     const auto add = [&](std::size_t lamps, const std::string& why) {
       if (lamps > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", lamps, why);
     };
-    add(too_fine, fmt::format("have more than {} triangles", kMaxReflectorEmitters));
+    add(too_fine, fmt::format("have more than {} triangles", kMostTriangles));
     add(too_faint, fmt::format("are fainter than the {} brightest", brightest));
     add(parted, "are hidden in part and large");
     add(too_many, fmt::format("came after its {} polygons", kMaxReflectorEmitters));
@@ -279,7 +280,7 @@ class EmitterChooser {
       double worth = 0;
       for (const Vec3& node : plane.nodes) worth += polygon_irradiance(lamp, {node, plane.normal, plane.normal});
       if (!(worth > 0)) return;
-      if (lamp.triangles.size() > kMaxReflectorEmitters)
+      if (lamp.triangles.size() > kMostTriangles)
         ++left_in.too_fine;
       else
         lamps.push_back(

@@ -31,7 +31,7 @@ struct Reflector {
   std::vector<std::uint8_t> visibility;
 };
 
-inline constexpr std::size_t kMaxReflectorEmitters = 16;
+inline constexpr std::size_t kMaxReflectorEmitters = 64;
 
 // Maps of an element that the player can blend at once, a residual included: no more are planned.
 inline constexpr std::size_t kMostMapsPerElement = 16;

@@ -39,21 +39,23 @@ std::vector<Texel> cells_of(const Reflector& reflector, std::size_t emitter) {
 }  // namespace
 
 GpuEmitters upload_emitters(const Pack& pack, const Reflector& reflector, const Mat4& reflector_from_pack, float size) {
-  static_assert(2 * kMaxReflectorEmitters <= 32);  // polygons, a bit each
+  static_assert(2 * kMaxReflectorEmitters <= 128);  // polygons, a bit each
   GpuEmitters out;
   if (reflector.emitters.empty() || !(size > 0)) return out;
   out.cells_x = static_cast<int>(reflector.visibility_x) - 1;
   out.cells_y = static_cast<int>(reflector.visibility_y) - 1;
   std::vector<Vec4> polygons;
   std::vector<Texel> visibility;
-  std::vector<std::uint32_t> seen(static_cast<std::size_t>(out.cells_x) * static_cast<std::size_t>(out.cells_y), 0);
+  std::vector<std::array<std::uint32_t, 4>> seen(static_cast<std::size_t>(out.cells_x) *
+                                                 static_cast<std::size_t>(out.cells_y));
   for (std::size_t e = 0; e < reflector.emitters.size(); ++e) {
     const Emitter& emitter = pack.emitters[reflector.emitters[e]];
     const std::vector<Texel> cells = cells_of(reflector, e);
     for (const std::array<Vec3, 4>& v : before_plane(emitter, reflector_from_pack, size)) {
-      const std::uint32_t bit = 1u << (polygons.size() / 4);
+      const std::size_t polygon = polygons.size() / 4;
+      const std::uint32_t bit = 1u << polygon % 32;
       for (std::size_t i = 0; i < cells.size(); ++i)
-        if (cells[i] != Texel{}) seen[i] |= bit;
+        if (cells[i] != Texel{}) seen[i][polygon / 32] |= bit;
       const auto number = static_cast<float>(e + 1);
       polygons.insert(polygons.end(), {Vec4(v[0], v[1].x), Vec4(v[1].y, v[1].z, v[2].x, v[2].y), Vec4(v[2].z, v[3]),
                                        Vec4(emitter.radiance, emitter.two_sided ? -number : number)});
@@ -64,7 +66,7 @@ GpuEmitters upload_emitters(const Pack& pack, const Reflector& reflector, const 
   const auto count = static_cast<int>(reflector.emitters.size());
   out.polygons = {gpu::kRgba32f, 4, static_cast<int>(polygons.size() / 4), polygons.data()};
   out.visibility = {gpu::kRgba8, out.cells_x, out.cells_y * count, visibility.data()};
-  out.seen = {gpu::kR32ui, out.cells_x, out.cells_y, seen.data()};
+  out.seen = {gpu::kRgba32ui, out.cells_x, out.cells_y, seen.data()};
   return out;
 }
 

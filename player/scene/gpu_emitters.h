@@ -13,7 +13,7 @@ struct GpuEmitters {
   int cells_x = 0, cells_y = 0;  // between the nodes of Reflector::visibility
   gpu::Texture2d polygons;       // none where there is nothing to show
   gpu::Texture2d visibility;     // the shares at a cell's nodes (x, y), (x+1, y), (x, y+1), (x+1, y+1); by emitter
-  gpu::Texture2d seen;           // bit k of a cell: polygon k is seen from any of its nodes
+  gpu::Texture2d seen;           // bit k of a cell's 128: polygon k is seen from any of its nodes
 };
 // size: metres.
 GpuEmitters upload_emitters(const Pack& pack, const Reflector& reflector, const Mat4& reflector_from_pack, float size);

@@ -6,7 +6,7 @@ float share_of_polygon(vec4 lobe, vec3 corners[4]);
 
 uniform sampler2D u_polygons;      // a row each: 12 coordinates of corners; light, and the emitter + 1, negative: both sides shine
 uniform sampler2D u_visibility;    // by cell and emitter: the shares seen from the cell's corners
-uniform usampler2D u_seen;         // by cell: bit k is set where polygon k is seen from any of its corners
+uniform usampler2D u_seen;         // by cell, 128 bits: k is set where polygon k is seen from any of its corners
 uniform ivec2 u_cells;
 uniform vec2 u_lower;              // bounds of the reflector
 uniform vec2 u_upper;
@@ -37,15 +37,12 @@ vec3 light_of_emitters(vec4 lobe) {
   vec2 x = dot(to_eye, to_eye) > 0.0 ? normalize(to_eye) : vec2(1.0, 0.0);
   vec2 at = clamp((place - u_lower) / (u_upper - u_lower), 0.0, 1.0) * vec2(u_cells);
   ivec2 cell = min(ivec2(at), u_cells - 1);
-  uint seen = texelFetch(u_seen, cell, 0).r;
+  uvec4 words = texelFetch(u_seen, cell, 0);
   vec3 sum = vec3(0.0);
-  if (seen == 0u) return sum;
-  int k = 0;
-  do {
-    for (; (seen & 1u) == 0u; ++k) seen >>= 1;
-    sum += light_of_polygon(k, lobe, place, x, cell, at - vec2(cell));
-    seen >>= 1;
-    ++k;
-  } while (seen != 0u);
+  for (int word = 0; word < 4; ++word) {
+    int k = 32 * word;
+    for (uint seen = words[word]; seen != 0u; seen >>= 1, ++k)
+      if ((seen & 1u) != 0u) sum += light_of_polygon(k, lobe, place, x, cell, at - vec2(cell));
+  }
   return sum;
 }

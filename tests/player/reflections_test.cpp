@@ -161,6 +161,36 @@ TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
   EXPECT_EQ(middle().x, 0) << "M is the world without them";
 }
 
+// As many lamps as a reflector may list shine like the one that they are pieces of.
+TEST_F(Reflected, EmittersShineToTheLastThatIsListed) {
+  Pack pack = lamp_pack();
+  const Camera camera = camera_at({0.3f, 0.1f, 1});
+  FrameOptions options;
+  options.show = Show::kMK;
+  const Picture one = draw(pack, camera, 65, 49, options);
+  const Emitter lamp = pack.emitters[0];
+  const Vec3 across = lamp.corners[1] - lamp.corners[0], along = lamp.corners[3] - lamp.corners[0];
+  Reflector& reflector = pack.reflectors[0];
+  reflector.emitters.clear(), pack.emitters.clear();
+  constexpr int kSide = 8;
+  static_assert(kSide * kSide == kMaxReflectorEmitters);
+  for (int i = 0; i < kSide * kSide; ++i) {
+    Emitter piece = lamp;
+    for (int c = 0; c < 4; ++c)
+      piece.corners[static_cast<std::size_t>(c)] =
+          lamp.corners[0] + (across * static_cast<float>(i % kSide + (c == 1 || c == 2)) +
+                             along * static_cast<float>(i / kSide + (c >= 2))) /
+                                static_cast<float>(kSide);
+    reflector.emitters.push_back(static_cast<std::uint32_t>(i));
+    pack.emitters.push_back(piece);
+  }
+  reflector.visibility.assign(4 * kMaxReflectorEmitters, 255);
+  const Picture pieces = draw(pack, camera, 65, 49, options);
+  EXPECT_GT(one.at(32, 24).x, 1);
+  for (int y = 0; y < 49; y += 4)
+    for (int x = 0; x < 65; x += 4) EXPECT_NEAR(pieces.at(x, y).x, one.at(x, y).x, 0.02f) << x << ", " << y;
+}
+
 // What the plane cuts off a lamp lights nothing: of a quad it may leave five corners. Seen along the normal, the lobe
 // is a cosine.
 TEST_F(Reflected, EmittersThroughThePlaneAreCutThere) {

@@ -115,7 +115,7 @@ export function readReflector(r: ByteReader): Reflector {
   r.f32();
   const flatness = r.f32();
   r.u32s(4);
-  const indices = r.u32s(r.count(4)), emitters = r.size(16, 'emitters');
+  const indices = r.u32s(r.count(4)), emitters = r.size(64, 'emitters');
   const nodesX = r.size(kMaxSide, 'nodes'), nodesY = r.size(kMaxSide, 'nodes');
   if (emitters > 0 && (nodesX < 2 || nodesY < 2)) r.fail('found emitters without nodes');
   return {

@@ -23,20 +23,20 @@ export function uploadEmitters(gl: WebGL2RenderingContext, r: Reflector, emitter
                                unit: number): ReflectorEmitters | undefined {
   if (r.emitters.length === 0 || !(size > 0)) return undefined;
   const cellsX = r.nodesX - 1, cellsY = r.nodesY - 1, cells = cellsX * cellsY;
-  const polygons: number[] = [], visibility = new Uint8Array(4 * cells * r.emitters.length), seen = new Uint32Array(cells);
+  const polygons: number[] = [], visibility = new Uint8Array(4 * cells * r.emitters.length), seen = new Uint32Array(4 * cells);
   r.emitters.forEach((index, e) => {
     const emitter = emitters[index]!, nodes = r.visibility.subarray(e * r.nodesX * r.nodesY);
     const bits = beforePlane(emitter, reflectorFromPack, size).map((c) => {
       const number = emitter.twoSided ? -(e + 1) : e + 1;
       polygons.push(...c[0]!, ...c[1]!, ...c[2]!, ...c[3]!, ...emitter.radiance.map((x) => x * unit), number);
-      return 1 << (polygons.length / 16 - 1);
+      return polygons.length / 16 - 1;
     });
     for (let y = 0; y < cellsY; ++y)
       for (let x = 0; x < cellsX; ++x) {
         const at = y * r.nodesX + x, cell = y * cellsX + x;
         const corners = [nodes[at]!, nodes[at + 1]!, nodes[at + r.nodesX]!, nodes[at + r.nodesX + 1]!];
         visibility.set(corners, 4 * (e * cells + cell));
-        if (corners.some((c) => c > 0)) for (const bit of bits) seen[cell]! |= bit;
+        if (corners.some((c) => c > 0)) for (const bit of bits) seen[4 * cell + (bit >> 5)]! |= 1 << (bit & 31);
       }
   });
   if (polygons.length === 0) return undefined;
@@ -44,7 +44,7 @@ export function uploadEmitters(gl: WebGL2RenderingContext, r: Reflector, emitter
     cellsX, cellsY,
     polygons: makeTexture(gl, { width: 4, height: polygons.length / 16, format: gl.RGBA32F }, new Float32Array(polygons)),
     visibility: makeTexture(gl, { width: cellsX, height: cellsY * r.emitters.length, format: gl.RGBA8 }, visibility),
-    seen: makeTexture(gl, { width: cellsX, height: cellsY, format: gl.R32UI }, seen),
+    seen: makeTexture(gl, { width: cellsX, height: cellsY, format: gl.RGBA32UI }, seen),
   };
 }
 
