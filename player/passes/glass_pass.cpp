@@ -22,11 +22,11 @@ enum GlassUnit {
 };
 
 constexpr int kShapeSize = 128, kAroundSize = 256;  // texels a side of a face
-constexpr std::ptrdiff_t kMostAround = 16;    // bodies that the scene is drawn around; others use the nearest one's
-constexpr float kLeastOfPicture = 1e-4f;      // of it, that a body covers for that
-constexpr float kMostIor = 10;                // beyond it numbers run out
-constexpr std::ptrdiff_t kMostWindows = 4;    // bodies of a frame that have one, 1 while something moves
-constexpr float kLeastBend = 8;               // pixels by which glass shifts things, for that
+constexpr std::ptrdiff_t kMostAround = 16;  // bodies that the scene is drawn around; others use the nearest one's
+constexpr float kLeastOfPicture = 1e-4f;    // of it, that a body covers for that
+constexpr float kMostIor = 10;              // beyond it numbers run out
+constexpr std::ptrdiff_t kMostWindows = 4;  // bodies of a frame that have one, 1 while something moves
+constexpr float kLeastBend = 8;             // pixels by which glass shifts things, for that
 constexpr int kLooks = 32, kPaneLooks = 12, kCoarseLooks = 4;  // of a lobe
 
 // As OpenGL has the faces of a cube.
