@@ -80,7 +80,8 @@ class SurroundCapture {
       const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
       if (glm::length(p - centre_) > farthest) return sight;
       if (own(hit.triangle) && !(sees_itself_ && hit.front)) {
-        if (!hit.front && !sees_itself_) sight = {};  // all before lies inside
+        // All before lies inside. A sheet that is seen from both sides may have its fronts there: a lamp's shade.
+        if ((!hit.front || scene_.material_of(hit.triangle).double_sided) && !sees_itself_) sight = {};
       } else if (!sight.ended && hit.triangle != last) {
         meet(hit, p, direction, sight);
       }

@@ -7,11 +7,11 @@
 namespace oriel {
 
 // Fills the texels of the maps of `found`: one ray through each texel's centre, so that colour and distance belong to
-// the same point. What lies inside the reflector's object, up to the last of its own triangles that the ray leaves
-// by their back, is not seen, nor is any of its triangles. Surfaces that let at least half of the light pass are walked
-// through as in capture_maps; emission is included, of glossy reflectors too. The back of a one-sided surface keeps
-// its distance, with radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. The same bytes for
-// any number of threads. Error kStopped.
+// the same point. What lies inside the reflector's object, up to the last of its own triangles that the ray leaves by
+// their back, or of those without a back, is not seen, nor is any of its triangles. Surfaces that let at least half of
+// the light pass are walked through as in capture_maps; emission is included, of glossy reflectors too. The back of a
+// one-sided surface keeps its distance, with radiance 0 and valid 0. Radiance that is not finite or negative counts as
+// 0. The same bytes for any number of threads. Error kStopped.
 Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, const OutgoingRadiance& outgoing,
                             const Stage& stage);
 

@@ -72,7 +72,9 @@ class Viewpoint {
   std::optional<Reflection> reflection(std::uint32_t triangle, const Vec2& barycentric, const Vec3& eye) const {
     const Vec3 p = point_on(scene_, triangle, barycentric), towards = eye - p;
     const float distance = glm::length(towards);
-    const Vec3 view = towards / distance, flat = geometric_normal(scene_, triangle);
+    const Vec3 view = towards / distance, front = geometric_normal(scene_, triangle);
+    const bool turned = scene_.material_of(triangle).double_sided && glm::dot(front, view) < 0;
+    const Vec3 flat = turned ? -front : front;
     const float cosine = glm::dot(flat, view);
     if (!(cosine > 0)) return std::nullopt;
     const SurfacePoint point = geometry_at(scene_, {.triangle = triangle, .barycentric = barycentric}, -view);

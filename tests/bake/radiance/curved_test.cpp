@@ -190,14 +190,27 @@ TEST(Surroundings, PointsAndSunsAreLampsOfTheirTexels) {
   EXPECT_NEAR(added_light(room).lux.x, 1000, 10);
 }
 
-TEST(Surroundings, WhatLiesInsideTheObjectIsNotSeen) {
+// The ball as a sheet that is seen from both sides, its fronts inside.
+void turn_inside_out(BallRoom& room) {
+  const Scene& scene = room.scene;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+    if (scene.surfaces[scene.triangle_surface[t]].name == "ball")
+      std::swap(room.scene.triangles[t].x, room.scene.triangles[t].y);
+  room.scene.materials[0].double_sided = true;
+}
+
+class SurroundingsOfBalls : public ::testing::TestWithParam<bool> {};
+
+TEST_P(SurroundingsOfBalls, WhatLiesInsideTheObjectIsNotSeen) {
   BallRoom room;
+  if (GetParam()) turn_inside_out(room);
   test::SceneParts parts;
   parts.scene() = std::move(room.scene);
   parts.box("core", 3, room.kCentre - 0.1f, room.kCentre + 0.1f);
   parts.box("chamber", 3, room.kCentre - 0.05f, room.kCentre + 0.05f, true);
   room.scene = parts.finish();
-  const BallRoom empty;
+  BallRoom empty;
+  if (GetParam()) turn_inside_out(empty);
   const FoundCurvedReflectors found = captured(room, find(room)), expected = captured(empty, find(empty));
   ASSERT_EQ(found.maps.size(), 1u);
   EXPECT_EQ(found.maps[0].valid, expected.maps[0].valid);
@@ -207,6 +220,8 @@ TEST(Surroundings, WhatLiesInsideTheObjectIsNotSeen) {
     differ += found.maps[0].radiance[i] != expected.maps[0].radiance[i];
   EXPECT_LT(differ, 100);
 }
+
+INSTANTIATE_TEST_SUITE_P(InsideOut, SurroundingsOfBalls, ::testing::Bool());
 
 TEST(Surroundings, DoNotDependOnThreads) {
   const BallRoom room(1);
