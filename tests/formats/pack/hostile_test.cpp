@@ -242,8 +242,8 @@ TEST(Hostile, WhatReflectionsNeed) {
   expect_refusal(with_raw(kEmitterSection, 1, std::uint8_t{2}), emitters + "element 0: found two-sided flag 2");
   const Reflector reflector = tiny_mapped_pack().reflectors[0];
   const std::size_t at = 4 + reflector.name.size() + 4 + 64 + 16 + 8 + 16 + 4 + 4 * reflector.indices.size();
-  expect_refusal(with_raw(kReflectorSection, at, 17u),
-                 reflectors + "element 0: found 17 emitters, expected at most 16");
+  expect_refusal(with_raw(kReflectorSection, at, 65u),
+                 reflectors + "element 0: found 65 emitters, expected at most 64");
   expect_refusal(with_raw(kReflectorSection, at + 4, 32769u), reflectors + "element 0: found visibility from 32769 x");
   expect_refusal(with_raw(kReflectorSection, at + 4, 32768u), reflectors + "its counts need more");
   expect_refusal(with_raw(kRadianceMapSection, 17, std::uint8_t{2}), "element 0: found residual flag 2");
