@@ -40,6 +40,14 @@ Camera face_camera(const Vec3& eye, int face) {
   return camera;
 }
 
+gpu::TextureOptions with_levels(const IVec2& size) {
+  gpu::TextureOptions options;
+  options.levels = gpu::mip_levels(size.x, size.y);
+  options.mag_filter = GL_LINEAR;
+  options.min_filter = GL_LINEAR_MIPMAP_NEAREST;
+  return options;
+}
+
 void clear_face(const Vec4& color) {
   gpu::RasterState all;
   all.depth_write = true;
@@ -186,11 +194,7 @@ Status GlassPass::draw_around(const FrameContext& context, std::size_t body, con
 
 Status GlassPass::make_canvas(const IVec2& size) {
   if (behind_ && IVec2(behind_.width(), behind_.height()) == size) return {};
-  gpu::TextureOptions options;
-  options.levels = gpu::mip_levels(size.x, size.y);
-  options.mag_filter = GL_LINEAR;
-  options.min_filter = GL_LINEAR_MIPMAP_NEAREST;
-  behind_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr, options);
+  behind_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr, with_levels(size));
   places_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr);
   normals_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr);
   tints_ = gpu::Texture2d(gpu::kRgba8, size.x, size.y, nullptr);
@@ -229,22 +233,18 @@ Status GlassPass::take_behind(const FrameTarget& frame, bool levels, FrameStats&
 
 Status GlassPass::draw_through(const FrameContext& context, const GlassWindow& window, const ScenePass& scene_pass) {
   GpuScene& scene = context.scene;
-  const View& seen_from = window.view;
-  if (!through_ || IVec2(through_.width(), through_.height()) != IVec2(seen_from.width, seen_from.height)) {
-    gpu::TextureOptions options;
-    options.levels = gpu::mip_levels(seen_from.width, seen_from.height);
-    options.mag_filter = GL_LINEAR;
-    options.min_filter = GL_LINEAR_MIPMAP_NEAREST;
-    through_ = gpu::Texture2d(gpu::kRgba32f, seen_from.width, seen_from.height, nullptr, options);
-    through_depth_ = gpu::Texture2d(gpu::kDepthStencil, seen_from.width, seen_from.height, nullptr);
+  const IVec2 size(window.view.width, window.view.height);
+  if (!through_ || IVec2(through_.width(), through_.height()) != size) {
+    through_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr, with_levels(size));
+    through_depth_ = gpu::Texture2d(gpu::kDepthStencil, size.x, size.y, nullptr);
     ORIEL_TRY_VOID(gpu::check_gl("making the image through glass"));
     ORIEL_TRY(through_framebuffer_,
               gpu::Framebuffer::create("the image through glass", &through_, &through_depth_, true));
   }
   through_framebuffer_.bind();
-  glViewport(0, 0, seen_from.width, seen_from.height);
+  glViewport(0, 0, size.x, size.y);
   clear_face(Vec4(scene.pack().sky, kClosest));
-  View beyond = seen_from;
+  View beyond = window.view;
   beyond.clip_from_pack = window.clip;
   const FrameContext through{scene, beyond, context.options, context.stats};
   scene_pass.draw_reflected(through, {visible_batches(scene.opaque(), make_frustum(window.clip)), {}, {}});

@@ -4,7 +4,6 @@
 
 #include "bake/jobs/units.h"
 #include "bake/radiosity/gather/moments.h"
-#include "bake/radiosity/gather/polished_suns.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/trace/emission.h"
 #include "bake/trace/glass.h"
@@ -254,9 +253,12 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
   const Transport& t = around.transport();
   const Sources sources(t.accel.scene(), t.lights);
   const bool near = std::ranges::find(sources.kinds(), SourceKind::kNear) != sources.kinds().end();
-  std::uint64_t pilot = 0;
-  const PolishedSuns suns(t.accel, t.lights, context.seed + seeds::kPolished, pilot);
-  stage.count(pilot);
+  if (!light.suns) {
+    std::uint64_t pilot = 0;
+    light.suns = std::make_shared<const PolishedSuns>(t.accel, t.lights, context.seed + seeds::kPolished, pilot);
+    stage.count(pilot);
+  }
+  const PolishedSuns& suns = *light.suns;
   if (!near && suns.empty()) return {};
   while (light.particles < per_half) {
     const std::uint64_t first = light.particles, count = std::min(per_half - first, kUnit * (kUnits / kHalves));

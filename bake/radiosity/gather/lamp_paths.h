@@ -1,6 +1,9 @@
 // Light of lamps that comes to texels by way of specular reflections alone, followed from the lamps.
 #pragma once
 
+#include <memory>
+
+#include "bake/radiosity/gather/polished_suns.h"
 #include "bake/radiosity/gather/surroundings.h"
 #include "bake/radiosity/texels/booked.h"
 
@@ -12,6 +15,7 @@ struct LampLight {
   std::vector<Vec4> moments;                   // as those of HalfSums, of both halves; empty unless asked for
   std::array<BookedLight, kHalves> booked;     // of `sum`, by group of lamps
   std::uint64_t particles = 0;                 // of each half
+  std::shared_ptr<const PolishedSuns> suns;    // made when first asked for
 
   LampLight(std::size_t texels, bool directional, std::size_t groups = 0)
       : moments(directional ? texels : 0), booked{BookedLight(texels, groups), BookedLight(texels, groups)} {

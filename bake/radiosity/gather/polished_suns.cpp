@@ -15,14 +15,10 @@ constexpr double kPilotRays = 1 << 17;  // of all triangles together, about
 constexpr int kMostPilot = 64;          // of one
 constexpr double kUnseen = 0.02;        // of a triangle's weight: of one on which no ray found the sun
 
-Vec3 towards(const Light& sun) {
-  return -sun.direction;
-}
-
 // What a triangle would reflect of a sun if nothing hid that, lm.
 double reflected(const Scene& scene, std::uint32_t triangle, const Light& sun) {
   const SceneMaterial& material = scene.material_of(triangle);
-  float cosine = glm::dot(geometric_normal(scene, triangle), towards(sun));
+  float cosine = glm::dot(geometric_normal(scene, triangle), -sun.direction);
   if (material.double_sided && !material.solid) cosine = std::abs(cosine);
   if (!(cosine > 0)) return 0;
   const ShadePoint point = shade_point(scene, triangle, Vec2(1 / 3.0f));
@@ -46,15 +42,21 @@ PolishedSuns::PolishedSuns(const Accel& accel, const LightSet& lights, std::uint
       all += weight;
     }
   }
-  double sum = 0;
+  // Triangles too small for a ray of their own have what was found before them on the same surface: meshes list
+  // neighbours together.
+  double sum = 0, owed = 0, seen = 1;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
-    const int pilot = std::clamp(static_cast<int>(kPilotRays * weights[i] / all), 1, kMostPilot);
-    double seen = 0;
-    for (int k = 0; k < pilot; ++k) {
-      Sampler sampler(seed, i, static_cast<std::uint32_t>(k));
-      seen += max_component(start_on(targets_[i], sampler, rays).particle.power) > 0 ? 1 : 0;
+    const auto surface = [&](std::size_t of) { return scene.triangle_surface[targets_[of].triangle]; };
+    if (i == 0 || targets_[i].light != targets_[i - 1].light || surface(i) != surface(i - 1)) seen = 1;
+    owed += kPilotRays * weights[i] / all;
+    if (const int pilot = static_cast<int>(std::min(owed, double{kMostPilot})); pilot > 0) {
+      owed = 0, seen = 0;
+      for (int k = 0; k < pilot; ++k) {
+        Sampler sampler(seed, i, static_cast<std::uint32_t>(k));
+        seen += max_component(start_on(targets_[i], sampler, rays).particle.power) > 0 ? 1.0 / pilot : 0.0;
+      }
     }
-    cdf_.push_back(sum += weights[i] * std::max(kUnseen, seen / pilot));
+    cdf_.push_back(sum += weights[i] * std::max(kUnseen, seen));
   }
 }
 
