@@ -33,18 +33,25 @@ CurvedObject object_of(const Scene& scene, std::vector<std::uint32_t> triangles)
   return object;
 }
 
+// Of a sheet that was split into two sides, the second one: its surroundings are others.
+bool is_back(const Scene& scene, std::uint32_t triangle) {
+  return !scene.twin.empty() && scene.twin[triangle] < triangle;
+}
+
 // Vertices are not shared between surfaces, nor where normals part: positions tell what is connected.
 std::vector<CurvedObject> connected_objects(const Scene& scene, std::span<const std::uint32_t> triangles) {
   struct Corner {
     std::uint32_t material;
+    bool back;
     Vec3 p;
     std::size_t triangle;  // into `triangles`
-    auto key() const { return std::tuple(material, p.x, p.y, p.z); }
+    auto key() const { return std::tuple(material, back, p.x, p.y, p.z); }
   };
   std::vector<Corner> corners;
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (int c = 0; c < 3; ++c)
-      corners.push_back({material_of(scene, triangles[i]), scene.positions[scene.triangles[triangles[i]][c]], i});
+      corners.push_back({material_of(scene, triangles[i]), is_back(scene, triangles[i]),
+                         scene.positions[scene.triangles[triangles[i]][c]], i});
   std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) { return a.key() < b.key(); });
   DisjointSets sets(triangles.size());
   for (std::size_t i = 1; i < corners.size(); ++i)

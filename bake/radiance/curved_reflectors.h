@@ -20,6 +20,13 @@ struct SeenOfTriangle {
   float inverse_square = 0;  // Σ 1/d² of these, d the distance from the eye in metres
 };
 
+// What a surround map shows of what is near its centre.
+enum class SurroundView : std::uint8_t {
+  kOutside,       // nothing of its own object, nor of what lies before the object's backs
+  kHollow,        // fronts of its own object too: it is taken from the hollow, a tub's
+  kBeyondBounds,  // nothing within the object's bounds: not the bulb in the mouth of a shade
+};
+
 struct FoundCurvedReflector {
   CurvedReflector reflector;             // indices are left empty; map is its own place in the list
   std::vector<std::uint32_t> triangles;  // into Scene::triangles, ascending
@@ -27,8 +34,7 @@ struct FoundCurvedReflector {
   double area_m2 = 0;
   double diagonal_m = 0;  // of its bounds
   SeenOfTriangle seen;    // of all of them
-  // The fronts of its object are in its map: it is hollow, and its map is taken from the hollow.
-  bool sees_itself = false;
+  SurroundView view = SurroundView::kOutside;
 };
 
 // A connected shiny surface.
@@ -55,11 +61,11 @@ std::uint32_t surround_resolution_for_eyes(double diagonal_m, double distance_m)
 // Divides their sides, for trials. Returns the texels that they have then.
 double make_coarser(std::uint32_t divisor, std::vector<SurroundMap>& maps);
 
-// `triangles` (FoundReflectors::unplanar) that share positions and a material make an object; one that is too large is
-// cut across its longest side. Each piece sees its surroundings from the middle of its bounds. `seen`: by triangle of
-// the scene; empty: nothing is known of eyes, area stands for what they see and maps are as fine as lobes show. Where
-// the maps need more than memory_bytes, those of the least important reflectors are halved first. The order depends on
-// the arguments only.
+// `triangles` (FoundReflectors::unplanar) that share positions and a material make an object, the two sides of a sheet
+// (Scene::twin) two; one that is too large is cut across its longest side. Each piece sees its surroundings from the
+// middle of its bounds. `seen`: by triangle of the scene; empty: nothing is known of eyes, area stands for what they
+// see and maps are as fine as lobes show. Where the maps need more than memory_bytes, those of the least important
+// reflectors are halved first. The order depends on the arguments only.
 FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const std::uint32_t> triangles,
                                              std::span<const ReflectorMaterial> materials,
                                              std::span<const SeenOfTriangle> seen, const CurvedOptions& options = {});

@@ -1,37 +1,16 @@
 #include "bake/radiance/surround_capture.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "bake/jobs/units.h"
+#include "bake/radiance/surround_sight.h"
 #include "bake/scene/sky.h"
-#include "bake/trace/albedo.h"
 #include "bake/trace/punctual.h"
 #include "bake/trace/sampler.h"
 #include "formats/core/octahedral.h"
 
 namespace oriel {
 namespace {
-
-constexpr int kMaxLayers = 64;             // of surfaces before the first opaque one
-constexpr float kSeeThrough = 0.5f;        // transmittance from which distance is that of what lies behind
-constexpr float kNearest = 1e-3f;          // of the object's size: a surface through the very centre has no distance
-constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
-
-// A surface on the way, and the share of its light that comes through what is before it.
-struct Layer {
-  Hit hit;
-  Vec3 share{0};
-};
-
-// What a ray has seen so far.
-struct SurroundSight {
-  std::vector<Layer> layers;
-  Vec3 throughput{1};
-  float inverse_distance = 0;
-  std::uint8_t valid = 2;
-  bool ended = false;
-};
 
 constexpr double kRaysARow = 2048;        // about
 constexpr std::uint32_t kSunPoints = 64;  // of a disk
@@ -41,99 +20,34 @@ class SurroundCapture {
  public:
   SurroundCapture(const Accel& accel, const FoundCurvedReflectors& found, const FoundCurvedReflector& reflector,
                   const OutgoingRadiance& outgoing)
-      : accel_(accel),
-        scene_(accel.scene()),
-        object_(found.objects[reflector.object]),
+      : scene_(accel.scene()),
         outgoing_(outgoing),
-        sees_itself_(reflector.sees_itself),
-        centre_(found.maps[reflector.reflector.map].centre),
-        nearest_(std::max(kNearest * glm::length(object_.upper - object_.lower), 1e-12f)) {}
+        rays_(accel, found.objects[reflector.object], found.maps[reflector.reflector.map].centre, reflector.view) {}
 
   // The light of layers is asked for when it is known which of them lie outside: lobes are traced there, and a ray
   // leaves some bodies through dozens of surfaces.
   SurroundSight look(const Vec3& direction, Vec3& radiance) {
-    SurroundSight sight = walk(direction);
+    SurroundSight sight = rays_.look(direction);
     radiance = Vec3(0);
-    for (const Layer& layer : sight.layers)
-      radiance += layer.share * usable_light(outgoing_({.hit = layer.hit, .towards_eye = -direction, .rays = &rays_}));
+    for (const SurroundSight::Layer& layer : sight.layers)
+      radiance +=
+          layer.share * usable_light(outgoing_({.hit = layer.hit, .towards_eye = -direction, .rays = &traced_}));
     if (!sight.ended && sight.valid != 0) radiance += sight.throughput * usable_light(sky_radiance(scene_, direction));
     return sight;
   }
-  std::uint64_t rays() const { return rays_; }
+  std::uint64_t rays() const { return rays_.count() + traced_; }
 
   // The share of a light's light that comes from this far.
   Vec3 passed(const Vec3& direction, float distance) {
-    const SurroundSight sight = walk(direction, distance * (1 - kBeforeLight));
+    const SurroundSight sight = rays_.look(direction, distance * (1 - kBeforeLight));
     return sight.ended || sight.valid == 0 ? Vec3(0) : sight.throughput;
   }
 
  private:
-  SurroundSight walk(const Vec3& direction, float farthest = std::numeric_limits<float>::max()) {
-    const float bounds_end = leaves_bounds(direction);
-    Ray ray{centre_, direction};
-    SurroundSight sight;
-    std::uint32_t last = ~0u;
-    for (int layer = 0; layer < kMaxLayers; ++layer) {
-      const Hit hit = accel_.intersect(ray);
-      ++rays_;
-      if (!hit) return sight;
-      const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
-      if (glm::length(p - centre_) > farthest) return sight;
-      if (own(hit.triangle) && !(sees_itself_ && hit.front)) {
-        // All before lies inside. A sheet that is seen from both sides may have its fronts there: a lamp's shade.
-        if ((!hit.front || scene_.material_of(hit.triangle).double_sided) && !sees_itself_) sight = {};
-      } else if (!sight.ended && hit.triangle != last) {
-        meet(hit, p, direction, sight);
-      }
-      if (sight.ended && (sees_itself_ || glm::length(p - centre_) >= bounds_end)) return sight;
-      last = hit.triangle;
-      ray.origin = p + direction * (kStep * max_component(glm::abs(p)) + 1e-6f * hit.distance);
-    }
-    if (!sight.ended) sight.valid = 0;  // nothing opaque within reason
-    return sight;
-  }
-
-  bool own(std::uint32_t triangle) const { return is_among(scene_, object_.triangles, triangle); }
-
-  // The distance at which a ray from the centre leaves the object's bounds.
-  float leaves_bounds(const Vec3& direction) const {
-    float nearest = std::numeric_limits<float>::max();
-    for (int axis = 0; axis < 3; ++axis) {
-      if (direction[axis] == 0) continue;
-      const float side = direction[axis] > 0 ? object_.upper[axis] : object_.lower[axis];
-      nearest = std::min(nearest, (side - centre_[axis]) / direction[axis]);
-    }
-    return nearest;
-  }
-
-  // Adds what a surface shows; the ray ends there unless it lets light pass.
-  void meet(const Hit& hit, const Vec3& p, const Vec3& direction, SurroundSight& sight) {
-    const SceneMaterial& material = scene_.material_of(hit.triangle);
-    Vec3 through(0);
-    float coverage = 1;
-    if (may_transmit(material) && !material.unlit) {  // light passes unlit surfaces, but eyes see them
-      const ShadePoint point = shade_point(scene_, hit.triangle, hit.barycentric);
-      coverage = point.coverage;
-      through = straight_transmittance(point, std::abs(glm::dot(geometric_normal(scene_, hit.triangle), direction)));
-    }
-    const bool back = !hit.front && !material.double_sided;
-    if (coverage > 0 && !back) sight.layers.push_back({hit, sight.throughput * coverage});
-    sight.throughput *= through;
-    if (max_component(through) >= kSeeThrough) return;
-    sight.ended = true;
-    sight.inverse_distance = 1 / std::max(glm::length(p - centre_), nearest_);
-    sight.valid = back ? 0 : 1;
-    if (back) sight.layers.clear();
-  }
-
-  const Accel& accel_;
   const Scene& scene_;
-  const CurvedObject& object_;
   const OutgoingRadiance& outgoing_;
-  bool sees_itself_;
-  Vec3 centre_;
-  float nearest_;  // m
-  std::uint64_t rays_ = 0;
+  SurroundRays rays_;
+  std::uint64_t traced_ = 0;  // by outgoing_
 };
 
 // Spreads over the four texels around a direction what has that integral over all directions.
@@ -198,7 +112,7 @@ Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, co
   loop.inputs = [&](std::size_t row, Archive& key) {
     const SurroundMap& map = found.maps[rows[row].x];
     const FoundCurvedReflector& reflector = found.reflectors[rows[row].x];
-    key(map.centre, map.size, rows[row].y, found.objects[reflector.object].triangles, reflector.sees_itself);
+    key(map.centre, map.size, rows[row].y, found.objects[reflector.object].triangles, reflector.view);
   };
   loop.compute = [&](std::size_t row) {
     SurroundMap& map = found.maps[rows[row].x];

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "bake/brdf/microfacet.h"
 #include "bake/jobs/parallel.h"
 #include "bake/radiance/sight.h"
+#include "bake/radiance/surround_sight.h"
 #include "bake/scene/shade.h"
 #include "bake/trace/path.h"
 #include "bake/trace/sampler.h"
@@ -17,6 +19,7 @@ constexpr std::uint32_t kTries = 4096;    // pairs of an eye and a point
 constexpr std::size_t kEnough = 256;      // of them that see each other
 constexpr int kLayers = 16;               // of the object itself and of glass before the first surface that counts
 constexpr float kSeeThrough = 0.5f;       // transmittance from which a surface hides nothing
+constexpr float kMirror = 1e-3f;          // alpha up to which a lobe has one direction
 constexpr float kSame = 1e-3f;            // of the distance: so near is the same surface
 constexpr float kLeastDistance_m = 0.5f;  // of eyes, for their solid angle
 constexpr float kGain = 1.02f;            // what a place must see more than the middle to replace it
@@ -29,6 +32,16 @@ struct Reflection {
   float weight = 0;
 };
 
+// The direction that a lobe's facet reflects to; may lie below the surface.
+Vec3 mirror(const Vec3& normal, const Vec3& view, float roughness, const Vec2& facet) {
+  const float alpha = roughness * roughness;
+  const Mat3 frame = frame_from_normal(normal);
+  const DVec3 local(glm::transpose(frame) * view);
+  if (!(alpha > kMirror) || !(local.z > 0)) return glm::normalize(glm::reflect(-view, normal));
+  const DVec3 h = Microfacet(FacetModel::kGgx, alpha).sample_visible_normal(local, DVec2(facet));
+  return glm::normalize(frame * Vec3(reflect_at(local, h)));
+}
+
 class Viewpoint {
  public:
   Viewpoint(const Accel& accel, std::span<const Vec3> eyes, const FoundCurvedReflector& reflector,
@@ -37,17 +50,20 @@ class Viewpoint {
 
   struct Choice {
     Vec3 place{0};
-    bool sees_itself = false;
+    SurroundView view = SurroundView::kOutside;
   };
   Choice best(const Vec3& middle) const {
     Choice best{middle};
     const std::vector<Reflection> seen = reflections();
     if (seen.empty()) return best;
     float most = kGain * share_seen(best, seen);
-    for (const bool itself : {false, true})
+    for (const SurroundView view : {SurroundView::kOutside, SurroundView::kHollow, SurroundView::kBeyondBounds})
       for (const Vec3& place : candidates(seen))
-        if (const float share = share_seen({place, itself}, seen); share > most) best = {place, itself}, most = share;
-    return best;
+        if (const float share = share_seen({place, view}, seen); share > most) best = {place, view}, most = share;
+    // What lies within the bounds and is mirrored to no eye would still leak into wide lobes: a bulb, a thousand times
+    // as bright as all else.
+    const Choice beyond{best.place, SurroundView::kBeyondBounds};
+    return share_seen(beyond, seen) >= share_seen(best, seen) ? beyond : best;
   }
 
  private:
@@ -62,14 +78,16 @@ class Viewpoint {
       const auto index = std::min<std::size_t>(place - until.begin(), until.size() - 1);
       const Vec2 u = sampler.next2();
       const float root = std::sqrt(u.x);
-      if (const auto r =
-              reflection(reflector_.triangles[index], {root * (1 - u.y), root * u.y}, eyes_[k % eyes_.size()]))
+      if (const auto r = reflection(reflector_.triangles[index], {root * (1 - u.y), root * u.y},
+                                    eyes_[k % eyes_.size()], sampler.next2()))
         all.push_back(*r);
     }
     return all;
   }
 
-  std::optional<Reflection> reflection(std::uint32_t triangle, const Vec2& barycentric, const Vec3& eye) const {
+  // facet: in [0, 1)², chooses a direction of the lobe.
+  std::optional<Reflection> reflection(std::uint32_t triangle, const Vec2& barycentric, const Vec3& eye,
+                                       const Vec2& facet) const {
     const Vec3 p = point_on(scene_, triangle, barycentric), towards = eye - p;
     const float distance = glm::length(towards);
     const Vec3 view = towards / distance, front = geometric_normal(scene_, triangle);
@@ -78,24 +96,24 @@ class Viewpoint {
     const float cosine = glm::dot(flat, view);
     if (!(cosine > 0)) return std::nullopt;
     const SurfacePoint point = geometry_at(scene_, {.triangle = triangle, .barycentric = barycentric}, -view);
-    const Vec3 mirrored = glm::normalize(glm::reflect(-view, point.normal));
+    const Vec3 mirrored = mirror(point.normal, view, scene_.material_of(triangle).roughness, facet);
     if (!(glm::dot(mirrored, flat) > 0)) return std::nullopt;
     const Vec3 origin = spawn_origin(scene_, triangle, barycentric, view);
     if (max_component(accel_.transmittance({origin, view, distance})) <= 0) return std::nullopt;
-    const Hit hit = first_hiding(origin, mirrored, true);
+    const Hit hit = first_hiding(origin, mirrored);
     const float apart = std::max(distance, kLeastDistance_m);
     return Reflection{p, hit ? point_on(scene_, hit.triangle, hit.barycentric) : mirrored, !hit,
                       cosine / (apart * apart)};
   }
 
-  // The first surface that hides what is behind it; of the object itself fronts do, or nothing.
-  Hit first_hiding(const Vec3& from, const Vec3& direction, bool itself) const {
+  // The first surface that hides what is behind it; of the object itself fronts do.
+  Hit first_hiding(const Vec3& from, const Vec3& direction) const {
     Ray ray{from, direction};
     for (int layer = 0; layer < kLayers; ++layer) {
       const Hit hit = accel_.intersect(ray);
       if (!hit) return hit;
-      const bool passes = own(hit.triangle)
-                              ? !(itself && hit.front)
+      const bool passes = is_among(scene_, object_.triangles, hit.triangle)
+                              ? !hit.front
                               : max_component(transmittance_at(scene_, hit.triangle, hit.barycentric)) >= kSeeThrough;
       if (!passes) return hit;
       ray.origin = spawn_origin(scene_, hit.triangle, hit.barycentric, direction);
@@ -104,15 +122,13 @@ class Viewpoint {
   }
 
   float share_seen(const Choice& from, std::span<const Reflection> reflections) const {
+    SurroundRays rays(accel_, object_, from.place, from.view);
     float sum = 0, seen = 0;
     for (const Reflection& r : reflections) {
-      const Vec3 direction = r.sky ? r.met : glm::normalize(r.met - from.place);
-      const Hit hit = first_hiding(from.place, direction, from.sees_itself);
+      const float distance = glm::length(r.met - from.place);
+      const SurroundSight sight = rays.look(r.sky ? r.met : (r.met - from.place) / distance);
       sum += r.weight;
-      if (r.sky ? !hit
-                : !hit || glm::length(point_on(scene_, hit.triangle, hit.barycentric) - r.met) <=
-                              kSame * glm::length(r.met - from.place))
-        seen += r.weight;
+      if (r.sky ? !sight.ended : std::abs(1 - distance * sight.inverse_distance) <= kSame) seen += r.weight;
     }
     return seen / sum;
   }
@@ -133,8 +149,6 @@ class Viewpoint {
     return places;
   }
 
-  bool own(std::uint32_t triangle) const { return is_among(scene_, object_.triangles, triangle); }
-
   const Accel& accel_;
   const Scene& scene_;
   std::span<const Vec3> eyes_;
@@ -153,7 +167,7 @@ Status place_surround_maps(const Accel& accel, std::span<const Vec3> eyes, Conte
     Vec3& centre = found.maps[reflector.reflector.map].centre;
     const auto best = Viewpoint(accel, eyes, reflector, found.objects[reflector.object], context.seed).best(centre);
     centre = best.place;
-    reflector.sees_itself = best.sees_itself;
+    reflector.view = best.view;
   });
 }
 

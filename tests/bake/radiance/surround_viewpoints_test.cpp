@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "bake/radiance/surround_capture.h"
+#include "bake/radiosity/split_sides.h"
 #include "tests/bake/radiance/mirror_room.h"
 
 namespace oriel {
@@ -45,7 +49,7 @@ TEST(SurroundViewpoints, ABallKeepsItsMiddle) {
   const FoundCurvedReflectors found = placed(room);
   ASSERT_EQ(found.maps.size(), 1u);
   EXPECT_LT(glm::length(found.maps[0].centre - middle), 1e-3f);
-  EXPECT_FALSE(found.reflectors[0].sees_itself);
+  EXPECT_NE(found.reflectors[0].view, SurroundView::kHollow);
   EXPECT_LT(glm::length(placed(room, {}).maps[0].centre - middle), 1e-3f) << "without eyes";
 }
 
@@ -69,7 +73,42 @@ TEST(SurroundViewpoints, AHollowThingSeesItself) {
   });
   const FoundCurvedReflectors found = placed(room);
   ASSERT_EQ(found.maps.size(), 1u);
-  EXPECT_TRUE(found.reflectors[0].sees_itself);
+  EXPECT_EQ(found.reflectors[0].view, SurroundView::kHollow);
+}
+
+constexpr std::uint32_t kBulb = 7;  // its material, and so its light in the map
+
+bool shows_bulb(const SurroundMap& map) {
+  return std::ranges::count(map.radiance, test::MirrorRoom::colour(kBulb)) > 0;
+}
+
+// A shade of one sheet, open below, a bulb in its mouth. From outside no ray goes from the sheet to the bulb, not even
+// one of a wide lobe, though most of the bounds' middle's rays do.
+TEST(SurroundViewpoints, TheOutsideOfAShadeDoesNotShowItsBulb) {
+  auto room = room_with([](test::SceneParts& parts) {
+    const Vec3 corner(2, 1.5f, 3), size(0.4f);
+    sides(parts, "shade", 0, corner, size);
+    parts.quad("shade", 0, corner + Vec3(0, size.y, 0), {size.x, 0, 0}, {0, 0, size.z});  // faces down
+    parts.diffuse(Vec3(0.5f));
+    parts.box("bulb", kBulb, {2.15f, 1.5f, 3.15f}, {2.25f, 1.6f, 3.25f});
+  });
+  room.scene.materials[0].double_sided = true;
+  room.scene.materials[0].roughness = 0.25f;
+  std::vector<LitSides> lit;
+  for (const std::uint32_t s : room.scene.triangle_surface)
+    lit.push_back(room.scene.surfaces[s].name == "shade" ? LitSides::kBoth : LitSides::kFront);
+  room.scene = split_sides(std::move(room.scene), lit);
+  FoundCurvedReflectors found = placed(room, {{2.2f, 2.1f, 4}, {2.2f, 1.7f, 2.2f}, {2.8f, 0.2f, 3.2f}});
+  ASSERT_EQ(found.maps.size(), 2u);
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  Context context;
+  ASSERT_TRUE(capture_surroundings(*accel, found, room.outgoing(), context));
+  for (const FoundCurvedReflector& side : found.reflectors) {
+    const std::uint32_t t = side.triangles.front();
+    const bool inside = room.scene.twin[t] > t;  // fronts face inwards
+    EXPECT_EQ(shows_bulb(found.maps[side.reflector.map]), inside);
+  }
 }
 
 }  // namespace
