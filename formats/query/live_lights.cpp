@@ -42,11 +42,6 @@ Vec2 halton2(std::uint32_t index, std::uint32_t dimension) {
   return {halton(index, dimension), halton(index, dimension + 1)};
 }
 
-Vec3 cosine_direction(const Vec2& u, const Vec3& normal) {
-  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
-  return frame_from_normal(normal) * Vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1 - u.x)));
-}
-
 // Shares of two sides (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
 Vec2 in_triangle(const Vec2& u) {
   return u.y > u.x ? Vec2(0.5f * u.x, u.y - 0.5f * u.x) : Vec2(u.x - 0.5f * u.y, 0.5f * u.y);
@@ -95,6 +90,11 @@ Mesh parts_where(const Mesh& mesh, const std::function<bool(std::uint32_t)>& wan
 }
 
 }  // namespace
+
+Vec3 cosine_direction(const Vec2& u, const Vec3& normal) {
+  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
+  return frame_from_normal(normal) * Vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1 - u.x)));
+}
 
 Vec3 unshadowed(const LiveLight& light, const Vec3& point, const Vec3& normal, Vec3* missing) {
   const Vec3 to = light.position - point;
@@ -178,13 +178,35 @@ LampScene::LampScene(const LiveSurfaces& surfaces, LiveLamp lamp)
   }
 }
 
+const MeshPart& LampScene::part_of(const TriangleHit& hit) const {
+  return still_mesh_.parts[still_.part(hit.first_index).value_or(0)];
+}
+
+Vec3 LampScene::facing_normal(const TriangleHit& hit, const Vec3& direction) const {
+  const Vec3 normal = triangle_normal(still_mesh_, hit.first_index);
+  if (!(glm::dot(normal, direction) > 0)) return normal;
+  return surfaces_.materials[part_of(hit).material].double_sided ? -normal : Vec3(0);
+}
+
+// What is mirrored counts as if it were scattered.
 Vec3 LampScene::albedo(const TriangleHit& hit) const {
-  const Material& material = surfaces_.materials[still_mesh_.parts[still_.part(hit.first_index).value_or(0)].material];
+  const std::uint32_t index = part_of(hit).material;
+  const Material& material = surfaces_.materials[index];
   // The same three vertices, of the mesh that has colours.
   const std::uint32_t* corners = &still_mesh_.indices[hit.first_index];
   return base_color_at(surfaces_.mesh, material, surfaces_.textures, corners, {hit.u, hit.v}) *
-         ((1 - material.metallic) *
-          (1 - max_component(reflectance_[still_mesh_.parts[still_.part(hit.first_index).value_or(0)].material])));
+             ((1 - material.metallic) * (1 - max_component(reflectance_[index]))) +
+         reflectance_[index];
+}
+
+std::optional<LampScene::LitPlace> LampScene::lit_place(const Vec3& from, const Vec3& direction) const {
+  const auto hit = still_.first(from, direction);
+  if (!hit || part_of(*hit).lightmap_page < 0 || facing_normal(*hit, direction) == Vec3(0)) return std::nullopt;
+  const std::uint32_t* corners = &still_mesh_.indices[hit->first_index];
+  const auto& uvs = surfaces_.mesh.lightmap_uvs;
+  return LitPlace{static_cast<std::uint32_t>(part_of(*hit).lightmap_page),
+                  (1 - hit->u - hit->v) * uvs[corners[0]] + hit->u * uvs[corners[1]] + hit->v * uvs[corners[2]],
+                  albedo(*hit)};
 }
 
 bool LampScene::sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack, Blockers& last) const {
@@ -200,12 +222,8 @@ LampScene::Surface LampScene::meet(const Vec3& from, const Vec3& direction, cons
   if (!pieces_.empty() &&
       lamp_rays_.first(Vec3(lamp_from_pack * Vec4(from, 1)), Vec3(lamp_from_pack * Vec4(direction, 0)), hit->distance))
     return out;
-  out.normal = triangle_normal(still_mesh_, hit->first_index);
-  const Material& material = surfaces_.materials[still_mesh_.parts[still_.part(hit->first_index).value_or(0)].material];
-  if (glm::dot(out.normal, direction) > 0) {
-    if (!material.double_sided) return out;
-    out.normal = -out.normal;
-  }
+  out.normal = facing_normal(*hit, direction);
+  if (out.normal == Vec3(0)) return out;
   out.met = true;
   out.distance = hit->distance;
   out.at = from + hit->distance * direction + offset_m_ * out.normal;
@@ -342,15 +360,16 @@ void LampScene::add_walks(std::size_t count, std::uint32_t bounces, const MoverP
 LiveLights LampScene::lights(const LiveOptions& options, const MoverPose& pose) const {
   LiveLights out;
   out.flux = flux_;
-  const float share = std::clamp(options.direct_share, 0.0f, 1.0f);
+  const bool all_direct = options.indirect == LiveIndirect::kTexels || options.bounce_count() == 0;
+  const float share = all_direct ? 1.0f : std::clamp(options.direct_share, 0.0f, 1.0f);
   // Each point light has one, and all surfaces together: fewer would leave out light.
-  const bool any = options.lights > 0 && (share > 0 || options.bounces == 0);
+  const bool any = options.lights > 0 && share > 0;
   const std::size_t least = any ? lamp_.points.size() + (pieces_.empty() ? 0 : 1) : 0;
   const auto asked = static_cast<std::size_t>(std::lround(share * static_cast<float>(options.lights)));
-  const std::size_t direct = std::max(options.bounces == 0 ? options.lights : asked, least);
+  const std::size_t direct = std::max(asked, least);
   add_direct(direct, Mat4(pack_from_object(pose)), out);
   out.direct = out.lights.size();
-  if (options.bounces > 0 && options.lights > direct) add_walks(options.lights - direct, options.bounces, pose, out);
+  if (!all_direct && options.lights > direct) add_walks(options.lights - direct, options.bounce_count(), pose, out);
   return out;
 }
 

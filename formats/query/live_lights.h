@@ -2,6 +2,7 @@
 // direct light, points where random walks from it meet surfaces give the rest.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ struct LiveLight {
 // Radiosity"): so it is finite wherever the point is. missing: what the same light without extent would give more,
 // lux, or infinite.
 Vec3 unshadowed(const LiveLight& light, const Vec3& point, const Vec3& normal, Vec3* missing = nullptr);
+
+// Unit, about that unit normal, in proportion to the cosine. u: in [0, 1)².
+Vec3 cosine_direction(const Vec2& u, const Vec3& normal);
 
 struct LiveLights {
   std::vector<LiveLight> lights;  // the direct ones first
@@ -62,6 +66,15 @@ class LampScene {
 
   // By the same random numbers for every pose: what differs between two poses is the poses'.
   LiveLights lights(const LiveOptions& options, const MoverPose& pose) const;
+  // What stands still and is lit, from its front, is met there: a page of the lightmap, its coordinates on it, and the
+  // share of light that it reflects.
+  struct LitPlace {
+    std::uint32_t page = 0;
+    Vec2 uv{0};
+    Vec3 albedo{0};
+  };
+  // Nothing: no such surface. The lamp is no obstacle.
+  std::optional<LitPlace> lit_place(const Vec3& from, const Vec3& direction) const;
   // What was last in the way of a light; of the scene and of the lamp. It saves time alone.
   struct Blockers {
     std::uint32_t still = ~0u, lamp = ~0u;
@@ -91,6 +104,9 @@ class LampScene {
   static void add_point(const Piece& piece, const Vec2& at, float area, const Mat4& pack_from_lamp, LiveLights& out);
   std::vector<std::uint32_t> walks_by_bounce(std::size_t count, std::uint32_t bounces) const;
   void add_walks(std::size_t count, std::uint32_t bounces, const MoverPose& pose, LiveLights& out) const;
+  const MeshPart& part_of(const TriangleHit& hit) const;
+  // Towards whoever comes along there; 0: its back, which reflects nothing.
+  Vec3 facing_normal(const TriangleHit& hit, const Vec3& direction) const;
   Vec3 albedo(const TriangleHit& hit) const;
 
   LiveSurfaces surfaces_;

@@ -2,16 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 namespace oriel {
 
-struct LiveOptions {
-  std::uint32_t lights = 300;  // in all, for each lamp; 0: none
-  float direct_share = 0.5f;   // of them on the lamp, [0,1]
-  std::uint32_t bounces = 3;   // that walks are followed for; 0: direct light alone
+// Who brings a moved lamp's bounced light: rays from texel to texel (LiveBounces), or lights where random walks meet
+// surfaces (Keller 1997).
+enum class LiveIndirect { kTexels, kLights };
 
+struct LiveOptions {
+  std::uint32_t lights = 64;   // in all, for each lamp; 0: none
+  LiveIndirect indirect = LiveIndirect::kTexels;
+  float direct_share = 0.5f;  // of them on the lamp, [0,1], where lights bring bounced light too; else all are
+  std::optional<std::uint32_t> bounces = {};  // 0: direct light alone; none: 16 by texels, 3 by lights
+
+  std::uint32_t bounce_count() const { return bounces.value_or(indirect == LiveIndirect::kTexels ? 16 : 3); }
   bool operator==(const LiveOptions&) const = default;
 };
-inline constexpr std::uint32_t kMostLiveLights = 100000, kMostLiveBounces = 16;
+inline constexpr std::uint32_t kMostLiveLights = 100000, kMostLiveBounces = 100;
 
 }  // namespace oriel

@@ -26,8 +26,7 @@ PosedLights pose_lights(const LampScene& scene, const LiveOptions& options, cons
 }
 
 LiveSum& LiveSum::operator+=(const LiveSum& other) {
-  now += other.now, baked += other.baked, missing += other.missing;
-  products += other.products, squares += other.squares;
+  add_share(*this, 1, other);
   return *this;
 }
 
@@ -74,14 +73,23 @@ LiveSum LiveSums::at(LivePart part, const Vec3& point, const Vec3& normal) {
   return out;
 }
 
+void add_share(LiveSum& to, float share, const LiveSum& sum) {
+  to.now += share * sum.now, to.baked += share * sum.baked, to.missing += share * sum.missing;
+  to.products += double{share} * sum.products, to.squares += double{share} * sum.squares;
+}
+
 LiveSum mix_sums(const LiveSum* const (&corners)[4], const Vec2& shares) {
-  LiveSum out;
+  constexpr float kLeast = 1e-3f;  // of weights, so that a point at a corner without light has some
+  LiveSum sum, out;
+  float total = 0;
   for (int c = 0; c < 4; ++c) {
-    const float weight = ((c & 1) != 0 ? shares.x : 1 - shares.x) * ((c & 2) != 0 ? shares.y : 1 - shares.y);
-    const LiveSum& corner = *corners[c];
-    out.now += weight * corner.now, out.baked += weight * corner.baked, out.missing += weight * corner.missing;
-    out.products += double{weight} * corner.products, out.squares += double{weight} * corner.squares;
+    if (corners[c] == nullptr) continue;
+    const float weight =
+        std::max(((c & 1) != 0 ? shares.x : 1 - shares.x) * ((c & 2) != 0 ? shares.y : 1 - shares.y), kLeast);
+    add_share(sum, weight, *corners[c]);
+    total += weight;
   }
+  add_share(out, 1 / total, sum);
   return out;
 }
 

@@ -28,7 +28,7 @@ struct LiveSum {
   // Of `now`, what its indirect lights would give more without extent; without what is infinite.
   Vec3 missing{0};
 
-  // Of both parts; what is seen is the first's.
+  // Of both parts; what is seen is the left one's.
   LiveSum& operator+=(const LiveSum& other);
   // How much of what the bake knows of the lamp here still tells about it, [0,1]: the coefficient of the regression,
   // through the origin, of the lights now on the same ones as baked, as for control variates (Owen 2013, "Monte Carlo
@@ -51,7 +51,10 @@ class LiveSums {
   std::vector<LampScene::Blockers> now_, baked_;  // by light
 };
 
-// Between the four texels around, the shares (x, y) being those of the right and the lower ones.
+// Adds that share of it; what is seen stays.
+void add_share(LiveSum& to, float share, const LiveSum& sum);
+// Between the four texels around, the shares (x, y) being those of the right and the lower ones. Null: that one has no
+// light; not all of them.
 LiveSum mix_sums(const LiveSum* const (&corners)[4], const Vec2& shares);
 
 }  // namespace oriel

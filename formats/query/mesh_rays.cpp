@@ -135,16 +135,16 @@ void MeshRays::along(const Vec3& from, const Vec3& direction, const float& farth
 }
 
 std::optional<TriangleHit> MeshRays::first(const Vec3& from, const Vec3& direction, float farthest) const {
+  constexpr float kBeyond = 1 + 2e-5f;  // of the nearest so far: the other side of a sheet may be told a little farther
   std::optional<TriangleHit> best;
-  float nearest = farthest;
-  along(from, direction, nearest, [&](const Corners& c) {
-    const auto hit = meet_triangle(c.a, c.ab, c.ac, from, direction);
-    if (!hit || !(hit->distance <= nearest)) return true;
-    const std::size_t first_index = std::size_t{3} * c.triangle;
-    // Of several in one place the first of the mesh, however the boxes lie.
-    if (best && hit->distance == nearest && first_index > best->first_index) return true;
-    best = TriangleHit{first_index, hit->distance, hit->u, hit->v};
-    nearest = hit->distance;
+  float reach = farthest;
+  along(from, direction, reach, [&](const Corners& c) {
+    auto hit = meet_triangle(c.a, c.ab, c.ac, from, direction);
+    if (!hit || !(hit->distance <= farthest)) return true;
+    hit->first_index = std::size_t{3} * c.triangle;
+    if (best && !hit->comes_before(*best)) return true;
+    best = hit;
+    reach = std::min(farthest, kBeyond * hit->distance);
     return true;
   });
   return best;

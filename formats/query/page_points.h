@@ -1,6 +1,7 @@
 // Where on surfaces the light of a lightmap page lies.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct PagePoint {
 // have none.
 std::vector<PagePoint> page_points(const Mesh& mesh, std::span<const std::uint32_t> without, std::uint32_t number,
                                    const LightmapPage& page);
+
+// The four texels around a place of a page (PagePoint::at), two rows of two, and the shares of the right and the lower
+// ones. At the page's edge the outer ones are the inner ones again.
+struct TexelsAround {
+  std::array<std::size_t, 4> texel{};
+  Vec2 shares{0};
+};
+TexelsAround texels_around(const LightmapPage& page, const Vec2& at);
 
 // Texels that surfaces do not need (filled from neighbours, buried) take the mean of those neighbours that have a
 // value, round by round. known: by texel, which it changes.

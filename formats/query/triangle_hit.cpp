@@ -1,6 +1,7 @@
 #include "formats/query/triangle_hit.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace oriel {
 
@@ -13,12 +14,17 @@ std::optional<TriangleHit> meet_triangle(const Mesh& mesh, std::size_t first_ind
   return hit;
 }
 
+bool TriangleHit::comes_before(const TriangleHit& other) const {
+  constexpr float kSamePlace = 1e-5f;  // of the distance
+  if (front != other.front && std::abs(distance - other.distance) <= kSamePlace * distance) return front;
+  return distance < other.distance || (distance == other.distance && first_index < other.first_index);
+}
+
 std::optional<TriangleHit> first_triangle(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
   std::optional<TriangleHit> first;
-  float nearest = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-    if (const auto hit = meet_triangle(mesh, i, from, direction); hit && hit->distance < nearest)
-      first = hit, nearest = hit->distance;
+    if (const auto hit = meet_triangle(mesh, i, from, direction); hit && (!first || hit->comes_before(*first)))
+      first = hit;
   return first;
 }
 

@@ -11,10 +11,15 @@
 namespace oriel {
 
 // A triangle that a ray meets: its place among the mesh's indices, how far along `direction` (any length), and the
-// shares of its second and third corner there.
+// shares of its second and third corner there. front: it is met from there.
 struct TriangleHit {
   std::size_t first_index = 0;
   float distance = 0, u = 0, v = 0;
+  bool front = true;
+
+  // Whether a ray that meets both meets this one first. Of triangles in one place, as are the two sides of a sheet, it
+  // is the one that faces the ray, then the first of the mesh.
+  bool comes_before(const TriangleHit& other) const;
 };
 
 // A triangle by one corner and the ways to the others (Moeller and Trumbore 1997); of the mesh, its number is not told.
@@ -24,7 +29,7 @@ inline std::optional<TriangleHit> meet_triangle(const Vec3& a, const Vec3& ab, c
   const float scale = 1 / glm::dot(ab, p), u = glm::dot(to, p) * scale, v = glm::dot(direction, q) * scale;
   const float t = glm::dot(ac, q) * scale;
   if (!(u >= 0 && v >= 0 && u + v <= 1 && t > 0)) return std::nullopt;
-  return TriangleHit{0, t, u, v};
+  return TriangleHit{0, t, u, v, scale > 0};
 }
 
 // That triangle, from either side.

@@ -19,11 +19,15 @@ constexpr std::uint32_t kCoarseShare = 16, kFewestCoarse = 16;  // of the lights
 }  // namespace
 
 std::string text_of(const LiveReport& report) {
-  std::string text = fmt::format(
-      "lamp \"{}\": {} live lights, {} on it, at {} points, {} of them between others, in {:.2f} s; {:.2f} % of its "
-      "light is cut near lights, {:.1f} % of its flux was not followed; {:.0f} % of the bake kept",
-      report.lamp, report.lights, report.direct, report.points, report.between, report.seconds, 100 * report.missing,
-      100 * report.left, 100 * report.kept);
+  std::string text =
+      fmt::format("lamp \"{}\": {} live lights, {} on it, at {} points, {} of them between others, in {:.2f} s; ",
+                  report.lamp, report.lights, report.direct, report.points, report.between, report.seconds);
+  if (report.lights > report.direct)
+    text += fmt::format("{:.2f} % of its light is cut near lights, {:.1f} % of its flux was not followed; ",
+                        100 * report.missing, 100 * report.left);
+  if (report.rays > 0)
+    text += fmt::format("bounced by {} rays a texel, the last bounce added {:.1f} %; ", report.rays, 100 * report.last);
+  text += fmt::format("{:.0f} % of the bake kept", 100 * report.kept);
   if (!report.through.empty()) text += fmt::format("; it goes through \"{}\"", report.through);
   if (report.outside) text += "; it is outside of all that was baked";
   if (report.reaches_nothing) text += "; its light reaches no surface: is it inside something?";
@@ -33,7 +37,8 @@ std::string text_of(const LiveReport& report) {
 struct LiveLamps::Lamp {
   std::unique_ptr<LampScene> scene;
   std::vector<std::vector<PagePoint>> points;  // by page
-  std::vector<LightmapPage> pages;             // what live_change() wants of them
+  std::vector<LightmapPage> pages;             // what LivePage wants of them
+  std::unique_ptr<LiveBounces> bounces;
   MoverPose wanted;
   MoverPose told;           // that `added` is for
   bool whole = true;        // it is of all lights
@@ -45,7 +50,7 @@ struct LiveLamps::Lamp {
 // One lamp's light at one pose.
 struct LiveLamps::Job {
   std::size_t group = 0;
-  const Lamp* lamp = nullptr;
+  Lamp* lamp = nullptr;  // the job alone changes its bounces
   MoverPose pose;
   LiveSettings settings;
   bool coarse = false;
@@ -62,16 +67,29 @@ struct LiveLamps::Job {
 
 void LiveLamps::Job::run(const ImageSource& images) {
   const auto start = std::chrono::steady_clock::now();
+  const LiveWork work{*lamp->scene, {now, baked}, settings.mode, coarse, &stop};
+  std::vector<LivePage> pages;
+  std::vector<std::vector<LiveSum>> direct;
+  for (std::uint32_t p = 0; p < lamp->points.size() && !stop; ++p) {
+    pages.emplace_back(work, p, lamp->pages[p], lamp->points[p]);
+    direct.push_back(pages.back().direct());
+  }
+  std::optional<BouncedLight> bounced;
+  if (!stop && settings.lights.indirect == LiveIndirect::kTexels && settings.lights.bounce_count() > 0) {
+    LiveBounces& bounces = *lamp->bounces;
+    bounces.trace(coarse ? 1 : bounces.wanted_rays(), &stop);
+    bounced = bounces.bounced(direct, settings.lights.bounce_count(), &stop);
+    report.rays = bounces.rays(), report.last = static_cast<float>(bounced->last);
+  }
   LiveTotals totals;
-  for (std::size_t p = 0; p < lamp->points.size() && !stop; ++p) {
+  for (std::uint32_t p = 0; p < pages.size() && !stop; ++p) {
     Result<PageChange> own = PageChange{};
-    if (settings.mode != LiveMode::kDifferential) own = images.light_of_group(static_cast<std::uint32_t>(p), group);
+    if (settings.mode != LiveMode::kDifferential) own = images.light_of_group(p, group);
     if (!own) {
       status = tl::unexpected<Error>(own.error());
       return;
     }
-    added.push_back(live_change(
-        {*lamp->scene, {now, baked}, settings.mode, lamp->pages[p], lamp->points[p], *own, coarse, &stop}, totals));
+    added.push_back(pages[p].change(std::move(direct[p]), *own, bounced ? &*bounced : nullptr, totals));
   }
   report.lights = now.of.lights.size(), report.direct = now.of.direct;
   report.points = static_cast<std::size_t>(totals.points), report.between = static_cast<std::size_t>(totals.between);
@@ -118,6 +136,7 @@ Result<LiveLamps::Lamp*> LiveLamps::lamp_of(std::size_t group) {
     page.standard_error = {}, page.direction = {};
     lamp->pages.push_back(std::move(page));
   }
+  lamp->bounces = std::make_unique<LiveBounces>(*lamp->scene, lamp->pages, lamp->points);
   return (lamps_[group] = std::move(lamp)).get();
 }
 
@@ -129,7 +148,10 @@ void LiveLamps::look_again() {
 std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSettings& settings, bool coarse) {
   auto job = std::make_unique<Job>();
   Lamp& lamp = *lamps_[group];
-  if (std::exchange(lamp.outdated, false)) lamp.scene = scene_of(group);
+  if (std::exchange(lamp.outdated, false)) {
+    lamp.scene = scene_of(group);
+    lamp.bounces = std::make_unique<LiveBounces>(*lamp.scene, lamp.pages, lamp.points);
+  }
   job->group = group, job->lamp = &lamp;
   job->pose = lamp.wanted;
   job->settings = settings;

@@ -20,10 +20,12 @@ struct LiveReport {
   std::size_t lights = 0, direct = 0;   // the latter on the lamp
   std::size_t points = 0, between = 0;  // the latter without rays of their own
   double seconds = 0;
-  float missing = 0;    // over the light that it gives: what lights' extent takes of it near them
-  float left = 0;       // of its flux, what walks did not follow
-  float kept = 0;       // mean share of what the bake knows of it that still counts
-  std::string through;  // the part that it goes through; empty: none
+  float missing = 0;       // over the light that it gives: what lights' extent takes of it near them
+  float left = 0;          // of its flux, what walks did not follow
+  std::uint32_t rays = 0;  // a texel, that bring bounced light; 0: lights do
+  float last = 0;          // of its light, what the last bounce added
+  float kept = 0;          // mean share of what the bake knows of it that still counts
+  std::string through;     // the part that it goes through; empty: none
   bool reaches_nothing = false;
   bool outside = false;  // its centre is outside of the box around all that was baked
 };

@@ -25,69 +25,89 @@ Vec3 added_light(const LiveSum& sum, LiveMode mode, float kept, const Vec3& own)
   return sum.now - kept * sum.baked - (1 - kept) * own;
 }
 
-class Work {
+// Of points that lie one after the other: at(number of the point, sums for its thread, totals).
+template <class At>
+LiveTotals each(const LiveWork& work, std::size_t first, std::size_t end, const At& at) {
+  std::vector<LiveTotals> runs((end - first + kRun - 1) / kRun);
+  for_each_parallel(runs.size(), core_count(), [&](std::size_t run) {
+    if (work.stop != nullptr && *work.stop) return;
+    LiveSums live(work.scene, work.lights);
+    const std::size_t begin = first + run * kRun;
+    for (std::size_t k = begin; k < std::min(begin + kRun, end); ++k) at(k, live, runs[run]);
+  });
+  LiveTotals totals;
+  for (const LiveTotals& sums : runs) totals += sums;
+  return totals;
+}
+
+std::size_t first_finer(const LightmapPage& page, const std::vector<PagePoint>& points) {
+  const auto at = std::ranges::lower_bound(points, page.irradiance.size(), {}, &PagePoint::index);
+  return static_cast<std::size_t>(at - points.begin());
+}
+
+class Change {
  public:
-  explicit Work(const LivePage& in)
-      : in_(in),
-        direct_(in.page.irradiance.size()),
-        indirect_(in.page.irradiance.size()),
-        known_(in.page.irradiance.size(), 0),
-        kept_(in.page.irradiance.size(), kNone),
-        change_{std::vector<Vec3>(in.page.irradiance.size(), Vec3(0)),
-                std::vector<Vec3>(in.page.detail.size(), Vec3(0))} {}
+  struct From {
+    const LiveWork& work;
+    std::uint32_t number;
+    const LightmapPage& page;
+    const std::vector<PagePoint>& points;
+    const PageChange& own;
+    const BouncedLight* bounced;
+  };
+  Change(const From& from, std::vector<LiveSum> direct)
+      : in_(from),
+        direct_(std::move(direct)),
+        indirect_(from.page.irradiance.size()),
+        known_(from.page.irradiance.size(), 0),
+        kept_(from.page.irradiance.size(), kNone),
+        change_{std::vector<Vec3>(from.page.irradiance.size(), Vec3(0)),
+                std::vector<Vec3>(from.page.detail.size(), Vec3(0))} {}
 
   LiveTotals run() {
-    const std::span<const PagePoint> points(in_.points);
-    const std::size_t texels = in_.page.irradiance.size();
-    const auto first_finer = std::ranges::lower_bound(points, texels, {}, &PagePoint::index) - points.begin();
-    const auto of_texels = points.first(static_cast<std::size_t>(first_finer)),
-               finer = points.subspan(static_cast<std::size_t>(first_finer));
-    LiveTotals totals = each(of_texels, [&](const PagePoint& point, LiveSums& live, LiveTotals&) { ask(point, live); });
-    for (const PagePoint& point : of_texels) known_[point.index] = 1;
-    keep_from_neighbours(of_texels);
-    for (const PagePoint& point : of_texels)
+    const std::vector<PagePoint>& points = in_.points;
+    const std::size_t finer = first_finer(in_.page, points);
+    LiveTotals totals =
+        each(in_.work, 0, finer, [&](std::size_t k, LiveSums& live, LiveTotals&) { at_texel(k, live); });
+    const std::span<const PagePoint> texels(points.data(), finer);
+    for (const PagePoint& point : texels) known_[point.index] = 1;
+    keep_from_neighbours(texels);
+    for (const PagePoint& point : texels)
       change_.light[point.index] = settle(direct_[point.index], indirect_[point.index], kept_[point.index],
                                           in_.own.empty() ? Vec3(0) : in_.own.light[point.index], totals);
-    totals +=
-        each(finer, [&](const PagePoint& point, LiveSums& live, LiveTotals& sums) { at_finer(point, live, sums); });
+    totals += each(in_.work, finer, points.size(),
+                   [&](std::size_t k, LiveSums& live, LiveTotals& sums) { at_finer(k, live, sums); });
     fill_from_neighbours(in_.page, known_, change_.light);
     return totals;
   }
   PageChange take() { return std::move(change_); }
 
  private:
-  template <class At>
-  LiveTotals each(std::span<const PagePoint> points, const At& at) const {
-    std::vector<LiveTotals> runs((points.size() + kRun - 1) / kRun);
-    for_each_parallel(runs.size(), core_count(), [&](std::size_t run) {
-      if (in_.stop != nullptr && *in_.stop) return;
-      LiveSums live(in_.scene, in_.lights);
-      for (const PagePoint& point : points.subspan(run * kRun, std::min(kRun, points.size() - run * kRun)))
-        at(point, live, runs[run]);
-    });
-    LiveTotals totals;
-    for (const LiveTotals& sums : runs) totals += sums;
-    return totals;
-  }
-
   // around: what is kept where the sums do not say.
   Vec3 settle(const LiveSum& direct, const LiveSum& indirect, float around, const Vec3& own, LiveTotals& sums) const {
     LiveSum both = direct;
     both += indirect;
+    const LiveMode mode = in_.work.mode;
     const float kept = both.kept().value_or(around);
     sums.now += double{luminance(both.now)}, sums.missing += double{luminance(both.missing)};
-    sums.kept += in_.mode == LiveMode::kFitted ? double{kept} : in_.mode == LiveMode::kOnly ? 0.0 : 1.0;
+    sums.kept += mode == LiveMode::kFitted ? double{kept} : mode == LiveMode::kOnly ? 0.0 : 1.0;
     sums.points += 1;
-    return added_light(both, in_.mode, kept, own);
+    return added_light(both, mode, kept, own);
   }
 
-  void ask(const PagePoint& point, LiveSums& live) {
-    LiveSum &direct = direct_[point.index], &indirect = indirect_[point.index];
-    direct = live.at(LivePart::kDirect, point.position, point.normal),
-    indirect = live.at(LivePart::kIndirect, point.position, point.normal);
-    LiveSum both = direct;
-    both += indirect;
-    kept_[point.index] = both.kept().value_or(kNone);
+  LiveSum indirect(std::size_t k, LiveSums& live) const {
+    const PagePoint& point = in_.points[k];
+    LiveSum sum = live.at(LivePart::kIndirect, point.position, point.normal);
+    if (in_.bounced != nullptr) sum += in_.bounced->at(in_.number, k);
+    return sum;
+  }
+
+  void at_texel(std::size_t k, LiveSums& live) {
+    const std::uint32_t index = in_.points[k].index;
+    indirect_[index] = indirect(k, live);
+    LiveSum both = direct_[index];
+    both += indirect_[index];
+    kept_[index] = both.kept().value_or(kNone);
   }
 
   // Where no light of the lamp was asked to come, as around; far from all that know as the page on the whole.
@@ -116,37 +136,33 @@ class Work {
   // The four texels around; null: the bake has none there.
   void around(const PagePoint& point, const std::vector<LiveSum>& sums_of, const LiveSum* (&corners)[4],
               Vec2& shares) const {
-    const IVec2 last(static_cast<int>(in_.page.width) - 1, static_cast<int>(in_.page.height) - 1);
-    const IVec2 first = glm::clamp(IVec2(glm::floor(point.at)), IVec2(0), last);
-    shares = glm::clamp(point.at - Vec2(first), 0.0f, 1.0f);
-    for (int c = 0; c < 4; ++c) {
-      const IVec2 t = glm::min(first + IVec2(c & 1, c >> 1), last);
-      const auto texel = static_cast<std::size_t>(t.y) * in_.page.width + static_cast<std::size_t>(t.x);
-      corners[c] = known_[texel] != 0 ? &sums_of[texel] : nullptr;
-    }
+    const TexelsAround around = texels_around(in_.page, point.at);
+    shares = around.shares;
+    for (std::size_t c = 0; c < 4; ++c) corners[c] = known_[around.texel[c]] != 0 ? &sums_of[around.texel[c]] : nullptr;
   }
 
   // Bounced light is smooth between texels. So is direct light where all four see all of the lamp, or nothing
   // (Barczak's classes of patches); elsewhere a finer point has rays of its own.
-  void at_finer(const PagePoint& point, LiveSums& live, LiveTotals& sums) {
+  void at_finer(std::size_t k, LiveSums& live, LiveTotals& sums) {
+    const PagePoint& point = in_.points[k];
     const LiveSum* corners[4];
     Vec2 shares;
     around(point, indirect_, corners, shares);
     const bool surrounded = std::ranges::find(corners, nullptr) == std::end(corners);
-    const LiveSum indirect =
-        surrounded ? mix_sums(corners, shares) : live.at(LivePart::kIndirect, point.position, point.normal);
+    const bool alone = std::ranges::all_of(corners, [](const LiveSum* corner) { return corner == nullptr; });
+    const LiveSum bounced = alone ? indirect(k, live) : mix_sums(corners, shares);
     bool smooth = surrounded;
     around(point, direct_, corners, shares);
     for (int c = 0; c < 4 && smooth; ++c)
       smooth = corners[c]->sees_now != SeenLights::kSome && corners[c]->sees_baked != SeenLights::kSome &&
                corners[c]->sees_now == corners[0]->sees_now && corners[c]->sees_baked == corners[0]->sees_baked;
-    smooth = smooth || (in_.coarse && surrounded);
+    smooth = smooth || (in_.work.coarse && !alone);
     const LiveSum direct =
         smooth ? mix_sums(corners, shares) : live.at(LivePart::kDirect, point.position, point.normal);
     if (smooth) sums.between += 1;
     const std::size_t i = point.index - in_.page.irradiance.size();
     change_.detail[i] =
-        settle(direct, indirect, kept_around(point), in_.own.empty() ? Vec3(0) : in_.own.detail[i], sums);
+        settle(direct, bounced, kept_around(point), in_.own.empty() ? Vec3(0) : in_.own.detail[i], sums);
   }
 
   float kept_around(const PagePoint& point) const {
@@ -159,7 +175,7 @@ class Work {
     return count > 0 ? sum / count : whole_;
   }
 
-  const LivePage& in_;
+  const From in_;
   std::vector<LiveSum> direct_, indirect_;  // by texel
   std::vector<std::uint8_t> known_;
   std::vector<float> kept_;  // by texel
@@ -169,10 +185,23 @@ class Work {
 
 }  // namespace
 
-PageChange live_change(const LivePage& page, LiveTotals& totals) {
-  Work work(page);
-  totals += work.run();
-  return work.take();
+LivePage::LivePage(const LiveWork& work, std::uint32_t number, const LightmapPage& page,
+                   const std::vector<PagePoint>& points)
+    : work_(work), number_(number), page_(page), points_(points) {}
+
+std::vector<LiveSum> LivePage::direct() const {
+  std::vector<LiveSum> sums(page_.irradiance.size());
+  each(work_, 0, first_finer(page_, points_), [&](std::size_t k, LiveSums& live, LiveTotals&) {
+    sums[points_[k].index] = live.at(LivePart::kDirect, points_[k].position, points_[k].normal);
+  });
+  return sums;
+}
+
+PageChange LivePage::change(std::vector<LiveSum> direct, const PageChange& own, const BouncedLight* bounced,
+                            LiveTotals& totals) const {
+  Change change({work_, number_, page_, points_, own, bounced}, std::move(direct));
+  totals += change.run();
+  return change.take();
 }
 
 }  // namespace oriel

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "formats/query/live_sums.h"
+#include "formats/query/live_bounces.h"
 #include "formats/query/page_points.h"
 #include "player/images/image_data.h"
 #include "player/scene/frame_options.h"
@@ -19,18 +19,34 @@ struct LiveTotals {
   }
 };
 
-struct LivePage {
+// A lamp's light at one pose.
+struct LiveWork {
   const LampScene& scene;
   LightPair lights;
   LiveMode mode = LiveMode::kFitted;
-  const LightmapPage& page;                 // its state and finer cells
-  const std::vector<PagePoint>& points;     // of it
-  const PageChange& own;                    // what the bake knows of the lamp there; may be empty for kDifferential
   bool coarse = false;                      // finer points lie between texels
   const std::atomic<bool>* stop = nullptr;  // ends it early: what it gives is of no use then
 };
-// Light that is to be added, in all threads. Texels come first; finer points take from them what is smooth in between:
-// bounced light, and direct light where the texels around see the whole lamp, or nothing of it.
-PageChange live_change(const LivePage& page, LiveTotals& totals);
+
+// In all threads. Texels come first; finer points take from them what is smooth in between: bounced light, and direct
+// light where the texels around see the whole lamp, or nothing of it.
+class LivePage {
+ public:
+  // Of page `number`: its state and finer cells, and its points. All outlive it.
+  LivePage(const LiveWork& work, std::uint32_t number, const LightmapPage& page, const std::vector<PagePoint>& points);
+  // What lights give texels without what they bring of other surfaces, by texel. Moved away: change() has no need of
+  // it.
+  std::vector<LiveSum> direct() const;
+  // Light that is to be added. own: what the bake knows of the lamp there; may be empty for kDifferential. bounced:
+  // light that comes by way of texels; null: none.
+  PageChange change(std::vector<LiveSum> direct, const PageChange& own, const BouncedLight* bounced,
+                    LiveTotals& totals) const;
+
+ private:
+  const LiveWork& work_;
+  std::uint32_t number_;
+  const LightmapPage& page_;
+  const std::vector<PagePoint>& points_;
+};
 
 }  // namespace oriel

@@ -13,12 +13,15 @@ std::vector<Option> live_options(const char* group, LiveSettings& out) {
        "(fitted), all of it, what live lights give now less what they gave before being added (differential), or "
        "nothing (only)",
        choice(out.mode, kLiveModes), Use::kRare, "live"},
-      {"--live-lights", group,
-       "Lights that stand for a lamp that was moved, and for what it lights: more are smoother and slower",
+      {"--live-lights", group, "Lights that stand for a lamp that was moved: more are smoother and slower",
        number(out.lights.lights, 1, kMostLiveLights), Use::kRare, "live_lights"},
-      {"--live-direct", group, "The share of them on the lamp itself; the others are where its light bounces",
+      {"--live-indirect", group,
+       "Who brings a moved lamp's bounced light: rays from texel to texel, or some of the lights, where its light "
+       "bounces (Keller's instant radiosity)",
+       choice(out.lights.indirect, kLiveIndirect), Use::kRare, "live_indirect"},
+      {"--live-direct", group, "With --live-indirect lights: the share of lights that are on the lamp itself",
        number(out.lights.direct_share, 0, 1), Use::kRare, "live_direct"},
-      {"--live-bounces", group, "Bounces of a moved lamp's light, 0: its direct light alone",
+      {"--live-bounces", group, "Bounces of a moved lamp's light, 0: its direct light alone. Default: 16, of lights 3",
        number(out.lights.bounces, 0, kMostLiveBounces), Use::kRare, "live_bounces"},
   };
 }

@@ -39,6 +39,9 @@ inline const std::map<std::string, MoverShadows> kMoverShadows{{"maps", MoverSha
 inline const std::map<std::string, LiveMode> kLiveModes{
     {"fitted", LiveMode::kFitted}, {"differential", LiveMode::kDifferential}, {"only", LiveMode::kOnly}};
 
+inline const std::map<std::string, LiveIndirect> kLiveIndirect{{"texels", LiveIndirect::kTexels},
+                                                               {"lights", LiveIndirect::kLights}};
+
 inline const std::map<std::string, Quality> kQualities{
     {"auto", Quality::kAutomatic}, {"full", Quality::kFull}, {"fast", Quality::kFast}};
 

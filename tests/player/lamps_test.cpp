@@ -130,12 +130,12 @@ TEST_F(LampsTest, TheLampIsSeenWhereItIs) {
 }
 
 TEST_F(LampsTest, AnyNumberOfLightsIsFinite) {
-  for (const std::uint32_t lights : {0u, 1u, 3000u})
+  for (const LiveOptions& lights : {LiveOptions{0}, LiveOptions{1}, LiveOptions{.lights = 3000, .bounces = 100},
+                                    LiveOptions{3000, LiveIndirect::kLights, 0.5f, 3}})
     for (const Vec3& shift : {Vec3(0, -2, 0), Vec3(0, -1.9999f, 0), Vec3(0, -3, 0), Vec3(1e5f, 0, 0)}) {
-      const Picture picture =
-          draw(lit_floor(), camera(), 32, 32,
-               {.lamps = {shifted(shift), {}}, .live = {{lights, 0.5f, 3}, LiveMode::kFitted, false}});
-      EXPECT_TRUE(picture.finite()) << lights << " lights, moved by " << shift.x << ", " << shift.y << ": "
+      const Picture picture = draw(lit_floor(), camera(), 32, 32,
+                                   {.lamps = {shifted(shift), {}}, .live = {lights, LiveMode::kFitted, false}});
+      EXPECT_TRUE(picture.finite()) << lights.lights << " lights, moved by " << shift.x << ", " << shift.y << ": "
                                     << picture.at(16, 16).x;
     }
 }
@@ -144,7 +144,7 @@ TEST_F(LampsTest, AnyNumberOfLightsIsFinite) {
 TEST(LiveLamps, ComeToTheSameInTheBackground) {
   const Pack pack = lit_floor();
   const ImageSource images(pack, nullptr, {});
-  const LiveSettings settings{{64, 0.5f, 2}, LiveMode::kFitted, false};
+  const LiveSettings settings{{.lights = 64, .bounces = 2}, LiveMode::kFitted, false};
   LiveSettings in_background = settings;
   in_background.in_background = true;
   const std::vector<MoverPose> away{shifted({1, 0, 0}), {}}, farther{shifted({0, 1, 0}), {}};

@@ -68,6 +68,10 @@ Vec3 exact_on_floor(const Vec3& point, const Vec3& shift, const Vec3& radiance) 
   return radiance * std::abs(polygon_vector(polygon).y);
 }
 
+LiveOptions by_lights(std::uint32_t lights, float direct_share, std::uint32_t bounces) {
+  return {lights, LiveIndirect::kLights, direct_share, bounces};
+}
+
 LiveSum sum_at(const LampScene& scene, const LiveOptions& options, const MoverPose& pose, const Vec3& point,
                const Vec3& normal) {
   const PosedLights now = pose_lights(scene, options, pose), baked = pose_lights(scene, options, {});
@@ -81,7 +85,7 @@ TEST(LiveLights, DirectLightIsTheClosedForm) {
   const LampScene scene = room.scene();
   for (const Vec3& shift : {Vec3(0), Vec3(1, 0, 0.5f), Vec3(0, -1.5f, 0)})
     for (const Vec3& point : {Vec3(0), Vec3(0.7f, 0, -0.2f), Vec3(3, 0, 2)}) {
-      const LiveSum sum = sum_at(scene, {256, 1, 0}, shifted(shift), point, {0, 1, 0});
+      const LiveSum sum = sum_at(scene, by_lights(256, 1, 0), shifted(shift), point, {0, 1, 0});
       const Vec3 exact = exact_on_floor(point, shift, room.materials[1].emission);
       EXPECT_LT(glm::length(sum.now - exact), 0.01f * glm::length(exact));
       EXPECT_LT(glm::length(sum.baked - exact_on_floor(point, Vec3(0), room.materials[1].emission)),
@@ -98,10 +102,11 @@ TEST(LiveLights, PointsAndSpots) {
   spot.position = {0, 1.5f, 0}, spot.direction = {0, -1, 0};
   spot.inner_cone_rad = 0.2f, spot.outer_cone_rad = 0.3f;
   const LampScene scene({room.mesh, room.materials, {}, {}}, {{}, {}, {spot}});
-  const Vec3 below = sum_at(scene, {8, 1, 0}, {}, Vec3(0), {0, 1, 0}).now;
+  const Vec3 below = sum_at(scene, by_lights(8, 1, 0), {}, Vec3(0), {0, 1, 0}).now;
   EXPECT_LT(glm::length(below - spot.intensity / 2.25f), 1e-2f);
-  EXPECT_EQ(sum_at(scene, {8, 1, 0}, {}, {1.5f, 0, 0}, {0, 1, 0}).now, Vec3(0));
-  EXPECT_LT(glm::length(sum_at(scene, {8, 1, 0}, shifted({1.5f, 0, 0}), {1.5f, 0, 0}, {0, 1, 0}).now - below), 1e-2f);
+  EXPECT_EQ(sum_at(scene, by_lights(8, 1, 0), {}, {1.5f, 0, 0}, {0, 1, 0}).now, Vec3(0));
+  EXPECT_LT(glm::length(sum_at(scene, by_lights(8, 1, 0), shifted({1.5f, 0, 0}), {1.5f, 0, 0}, {0, 1, 0}).now - below),
+            1e-2f);
 }
 
 // However few lights are asked for, none of a lamp's own is left out.
@@ -113,13 +118,13 @@ TEST(LiveLights, FewStandForAllOfALampsPoints) {
   const LampScene scene({room.mesh, room.materials, {}, {}},
                         {room.lamp, std::vector<Vec3>(room.lamp.size(), room.materials[1].emission),
                          std::vector<BrightLight>(40, point)});
-  const LiveLights few = scene.lights({18, 0.5f, 3}, {});
+  const LiveLights few = scene.lights(by_lights(18, 0.5f, 3), {});
   EXPECT_EQ(few.direct, 41u) << "and one for its surface";
   Vec3 points(0);
   for (const LiveLight& light : few.lights)
     if (light.normal == Vec3(0)) points += light.intensity;
   EXPECT_EQ(points, Vec3(400));
-  EXPECT_TRUE(scene.lights({0, 0.5f, 3}, {}).lights.empty());
+  EXPECT_TRUE(scene.lights(by_lights(0, 0.5f, 3), {}).lights.empty());
 }
 
 TEST(LiveLights, WhereNothingMovedTheBakeStays) {
@@ -127,7 +132,7 @@ TEST(LiveLights, WhereNothingMovedTheBakeStays) {
   room.quad({-0.3f, 1, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, 0);
   const LampScene scene = room.scene();
   for (float x = -4; x < 4; x += 0.37f) {
-    const LiveSum sum = sum_at(scene, {300, 0.5f, 3}, {}, {x, 0, 0.1f}, {0, 1, 0});
+    const LiveSum sum = sum_at(scene, by_lights(300, 0.5f, 3), {}, {x, 0, 0.1f}, {0, 1, 0});
     EXPECT_EQ(sum.now, sum.baked);
     EXPECT_EQ(sum.kept().value_or(1), 1);
   }
@@ -138,7 +143,7 @@ TEST(LiveLights, WalksCarryWhatSurfacesReflect) {
   Room room;
   room.box({-2, -2, -2}, {2, 2, 2});
   room.quad({-0.5f, 1.5f, -0.5f}, {1, 0, 0}, {0, 0, 1}, 1);
-  const LiveLights lights = room.scene().lights({1000, 0, 2}, {});
+  const LiveLights lights = room.scene().lights(by_lights(1000, 0, 2), {});
   EXPECT_NEAR(static_cast<double>(lights.lights.size()), 1000, 1);
   EXPECT_EQ(lights.direct, 0u);
   EXPECT_NEAR(luminance(lights.flux), kPi * luminance(room.materials[1].emission), 1);
@@ -151,7 +156,7 @@ TEST(LiveLights, WalksCarryWhatSurfacesReflect) {
 TEST(LiveLights, WhatIsCutNearALightIsReported) {
   Room room = lamp_over_floor();
   const LampScene scene = room.scene();
-  PosedLights lights = pose_lights(scene, {64, 0, 1}, {});
+  PosedLights lights = pose_lights(scene, by_lights(64, 0, 1), {});
   const auto brightest =
       std::ranges::max_element(lights.of.lights, {}, [](const LiveLight& l) { return l.intensity.x; });
   // A point that the light touches: without extent its light would have no bound.
@@ -177,13 +182,15 @@ TEST(LiveLights, ExtremesAreFinite) {
       for (const float share : {0.0f, 0.5f, 1.0f})
         for (const std::uint32_t bounces : {0u, 1u, 16u})
           for (const Vec3& shift : {Vec3(0), Vec3(0.1f, 0, 0), Vec3(1e6f, 0, 0)}) {
-            const LiveSum sum = sum_at(scene, {lights, share, bounces}, shifted(shift), {0.01f, 0, 5e-4f}, {0, 1, 0});
+            const LiveSum sum =
+                sum_at(scene, by_lights(lights, share, bounces), shifted(shift), {0.01f, 0, 5e-4f}, {0, 1, 0});
             ASSERT_TRUE(is_finite(sum.now) && is_finite(sum.baked) && is_finite(sum.missing));
             ASSERT_TRUE(sum.kept().value_or(0) >= 0 && sum.kept().value_or(0) <= 1);
           }
   }
-  EXPECT_EQ(luminance(sum_at(boxed.scene(), {300, 0.5f, 3}, shifted({0.1f, 0, 0}), {2, -3, 0}, {0, 1, 0}).now), 0);
-  EXPECT_EQ(slit.scene().lights({kMostLiveLights, 0.5f, 3}, {}).direct, kMostLiveLights / 2);
+  EXPECT_EQ(luminance(sum_at(boxed.scene(), by_lights(300, 0.5f, 3), shifted({0.1f, 0, 0}), {2, -3, 0}, {0, 1, 0}).now),
+            0);
+  EXPECT_EQ(slit.scene().lights(by_lights(kMostLiveLights, 0.5f, 3), {}).direct, kMostLiveLights / 2);
 }
 
 TEST(LiveLights, ALampInAWallIsTold) {

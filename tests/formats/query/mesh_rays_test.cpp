@@ -48,5 +48,27 @@ TEST(MeshRays, MeetWhatAllTrianglesSay) {
   }
 }
 
+// The two sides of a sheet are two triangles in one place: a ray meets the one that it comes to from the front.
+TEST(MeshRays, OfASheetsSidesMeetTheOneThatFaces) {
+  Mesh mesh;
+  mesh.positions = {{0.1f, 0.2f, 0.3f}, {1.3f, 0.1f, 0.37f}, {0.2f, 1.1f, 0.9f}};
+  mesh.indices = {0, 1, 2, 0, 2, 1};
+  mesh.parts = {{"front", 0, 3, 0, -1}, {"back", 3, 3, 0, -1}};
+  const MeshRays rays(mesh);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> at(-3, 3);
+  int met = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 from(at(random), at(random), at(random)), direction = Vec3(0.5f, 0.4f, 0.5f) - from;
+    const auto all = first_triangle(mesh, from, direction), found = rays.first(from, direction);
+    ASSERT_EQ(found.has_value(), all.has_value());
+    if (!found) continue;
+    ++met;
+    EXPECT_LT(glm::dot(triangle_normal(mesh, found->first_index), direction), 0);
+    EXPECT_EQ(found->first_index, all->first_index);
+  }
+  EXPECT_GT(met, 2000);
+}
+
 }  // namespace
 }  // namespace oriel

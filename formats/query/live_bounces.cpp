@@ -1,0 +1,197 @@
+#include "formats/query/live_bounces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/core/color.h"
+#include "formats/core/parallel.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kNone = BouncedLight::kNone;
+constexpr std::uint32_t kMostRays = 64, kFewestRays = 16;  // of a texel
+constexpr std::size_t kMostInAll = std::size_t{1} << 24;   // of 8 bytes each
+constexpr std::size_t kRun = 256;                          // rows that a thread takes at once
+constexpr int kFarthest = 2;                               // texels, from where light was met to one that has some
+constexpr float kSamePlane = 0.95f;                        // cosine between normals of neighbours
+constexpr float kOffPlane = 0.1f;                          // of their distance
+
+float fraction(double x) {
+  return static_cast<float>(x - std::floor(x));
+}
+
+// Of a low-discrepancy sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences", R2), shifted
+// for each row.
+Vec2 place(std::uint32_t ray, std::uint32_t row) {
+  const std::uint32_t a = row * 0x9e3779b9u, b = (row ^ 0x68bc21ebu) * 0x85ebca6bu;
+  return {fraction(ray * 0.7548776662466927 + (a ^ a >> 15) * 0x1p-32),
+          fraction(ray * 0.5698402909980532 + (b ^ b >> 13) * 0x1p-32)};
+}
+
+void for_rows(std::size_t rows, const std::atomic<bool>* stop, const std::function<void(std::size_t)>& each) {
+  for_each_parallel((rows + kRun - 1) / kRun, core_count(), [&](std::size_t run) {
+    if (stop != nullptr && *stop) return;
+    for (std::size_t row = run * kRun; row < std::min(rows, (run + 1) * kRun); ++row) each(row);
+  });
+}
+
+}  // namespace
+
+LiveBounces::LiveBounces(const LampScene& scene, std::span<const LightmapPage> pages,
+                         std::span<const std::vector<PagePoint>> points)
+    : scene_(scene), pages_(pages) {
+  const auto add = [&](std::uint32_t page, std::size_t k) {
+    row_of_[page][k] = static_cast<std::uint32_t>(rows_.size());
+    rows_.push_back({page, points[page][k].index, &points[page][k]});
+  };
+  const auto is_texel = [&](std::uint32_t page, std::size_t k) {
+    return points[page][k].index < pages_[page].irradiance.size();
+  };
+  for (std::uint32_t p = 0; p < pages.size(); ++p) {
+    row_at_.emplace_back(pages[p].irradiance.size(), kNone);
+    row_of_.emplace_back(points[p].size(), kNone);
+    for (std::size_t k = 0; k < points[p].size(); ++k) {
+      if (!is_texel(p, k)) continue;
+      row_at_[p][points[p][k].index] = static_cast<std::uint32_t>(rows_.size());
+      add(p, k);
+    }
+  }
+  texels_ = rows_.size();
+  for (std::uint32_t p = 0; p < pages.size(); ++p)
+    for (std::size_t k = 0; k < points[p].size(); ++k) {
+      if (is_texel(p, k)) continue;
+      const TexelsAround around = texels_around(pages[p], points[p][k].at);
+      if (std::ranges::all_of(around.texel, [&](std::size_t t) { return row_at_[p][t] == kNone; })) add(p, k);
+    }
+}
+
+std::uint32_t LiveBounces::wanted_rays() const {
+  const std::size_t each = kMostInAll / std::max<std::size_t>(rows_.size(), 1);
+  return std::clamp(static_cast<std::uint32_t>(std::min<std::size_t>(each, kMostRays)), kFewestRays, kMostRays);
+}
+
+void LiveBounces::trace(std::uint32_t rays, const std::atomic<bool>* stop) {
+  while (this->rays() < rays && !(stop != nullptr && *stop)) {
+    std::vector<Met> round(rows_.size() * kRound);
+    const std::uint32_t first = this->rays();
+    for_rows(rows_.size(), stop, [&](std::size_t row) {
+      for (std::uint32_t i = 0; i < kRound; ++i) round[row * kRound + i] = met(row, first + i);
+    });
+    if (stop == nullptr || !*stop) rounds_.push_back(std::move(round));
+  }
+}
+
+LiveBounces::Met LiveBounces::met(std::size_t row, std::uint32_t ray) const {
+  const PagePoint& point = *rows_[row].point;
+  const Vec3 direction = cosine_direction(place(ray, static_cast<std::uint32_t>(row)), point.normal);
+  const auto lit = scene_.lit_place(point.position + scene_.offset_m() * point.normal, direction);
+  if (!lit || lit->page >= pages_.size()) return {};
+  const Vec3 share = glm::clamp(lit->albedo, 0.0f, 1.0f) * 255.0f + 0.5f;
+  return {row_near(lit->page, lit->uv), static_cast<std::uint8_t>(share.r), static_cast<std::uint8_t>(share.g),
+          static_cast<std::uint8_t>(share.b)};
+}
+
+// Of the texel there, or of the nearest that has light.
+std::uint32_t LiveBounces::row_near(std::size_t page, const Vec2& uv) const {
+  const IVec2 size(static_cast<int>(pages_[page].width), static_cast<int>(pages_[page].height));
+  const IVec2 at = glm::clamp(IVec2(glm::floor(uv * Vec2(size))), IVec2(0), size - 1);
+  std::uint32_t best = kNone;
+  int least = 2 * kFarthest * kFarthest + 1;
+  for (int y = std::max(at.y - kFarthest, 0); y <= std::min(at.y + kFarthest, size.y - 1); ++y)
+    for (int x = std::max(at.x - kFarthest, 0); x <= std::min(at.x + kFarthest, size.x - 1); ++x) {
+      const std::uint32_t row = row_at_[page][static_cast<std::size_t>(y) * pages_[page].width + x];
+      const int distance2 = (x - at.x) * (x - at.x) + (y - at.y) * (y - at.y);
+      if (row != kNone && distance2 < least) best = row, least = distance2;
+    }
+  return best;
+}
+
+LiveBounces::Light LiveBounces::gathered(std::size_t row, std::span<const Light> light) const {
+  Light sum;
+  for (const std::vector<Met>& round : rounds_)
+    for (std::uint32_t i = 0; i < kRound; ++i) {
+      const Met& met = round[row * kRound + i];
+      if (met.row == kNone) continue;
+      const Vec3 share(met.r, met.g, met.b);
+      sum.now += share * light[met.row].now, sum.baked += share * light[met.row].baked;
+    }
+  const float each = 1 / (255.0f * static_cast<float>(std::max(rays(), 1u)));
+  return {sum.now * each, sum.baked * each};
+}
+
+// The same with what a regression wants of the rays.
+LiveSum LiveBounces::summed(std::size_t row, std::span<const Light> light) const {
+  LiveSum sum;
+  const float each = 1 / (255.0f * static_cast<float>(std::max(rays(), 1u)));
+  for (const std::vector<Met>& round : rounds_)
+    for (std::uint32_t i = 0; i < kRound; ++i) {
+      const Met& met = round[row * kRound + i];
+      if (met.row == kNone) continue;
+      const Vec3 share = each * Vec3(met.r, met.g, met.b), now = share * light[met.row].now,
+                 baked = share * light[met.row].baked;
+      sum.now += now, sum.baked += baked;
+      const double x = luminance(now), y = luminance(baked);
+      sum.products += x * y, sum.squares += y * y;
+    }
+  return sum;
+}
+
+// Neighbours have other rays: together they have the noise of nine times as many.
+LiveSum LiveBounces::smoothed(std::size_t row, std::span<const LiveSum> sums) const {
+  const auto& [page, index, point] = rows_[row];
+  const int width = static_cast<int>(pages_[page].width), height = static_cast<int>(pages_[page].height);
+  const int x = static_cast<int>(index) % width, y = static_cast<int>(index) / width;
+  LiveSum mean;
+  float total = 0;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
+    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+      const std::uint32_t other = row_at_[page][static_cast<std::size_t>(v) * pages_[page].width + u];
+      if (other == kNone) continue;
+      const PagePoint& beside = *rows_[other].point;
+      const Vec3 way = beside.position - point->position;
+      if (glm::dot(beside.normal, point->normal) < kSamePlane ||
+          std::abs(glm::dot(way, point->normal)) > kOffPlane * glm::length(way))
+        continue;
+      const float weight = static_cast<float>((2 - std::abs(u - x)) * (2 - std::abs(v - y)));
+      add_share(mean, weight, sums[other]);
+      total += weight;
+    }
+  LiveSum out;
+  add_share(out, 1 / total, mean);
+  return out;
+}
+
+BouncedLight LiveBounces::bounced(std::span<const std::vector<LiveSum>> direct, std::uint32_t bounces,
+                                  const std::atomic<bool>* stop) const {
+  std::vector<Light> from_lamp(texels_);
+  for (std::size_t row = 0; row < texels_; ++row) {
+    const LiveSum& sum = direct[rows_[row].page][rows_[row].index];
+    from_lamp[row] = {sum.now, sum.baked};
+  }
+  std::vector<Light> light = from_lamp, next = light;
+  for (std::uint32_t bounce = 1; bounce < bounces; ++bounce) {
+    for_rows(texels_, stop, [&](std::size_t row) {
+      const Light more = gathered(row, light);
+      next[row] = {from_lamp[row].now + more.now, from_lamp[row].baked + more.baked};
+    });
+    light.swap(next);
+  }
+  BouncedLight out;
+  out.row_of = row_of_;
+  if (bounces == 0) {
+    out.sums.resize(rows_.size());
+    return out;
+  }
+  std::vector<LiveSum> sums(rows_.size());
+  for_rows(rows_.size(), stop, [&](std::size_t row) { sums[row] = summed(row, light); });
+  double before = 0, after = 0;
+  for (std::size_t row = 0; row < texels_; ++row)
+    before += luminance(light[row].now), after += luminance(from_lamp[row].now + sums[row].now);
+  out.last = after > 0 ? (after - before) / after : 0;
+  out.sums = sums;
+  for_rows(texels_, stop, [&](std::size_t row) { out.sums[row] = smoothed(row, sums); });
+  return out;
+}
+
+}  // namespace oriel
