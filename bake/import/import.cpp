@@ -9,6 +9,7 @@
 #include "bake/import/lighting.h"
 #include "bake/import/movers.h"
 #include "bake/import/repair.h"
+#include "bake/import/seams.h"
 #include "bake/import/solids.h"
 #include "bake/import/viewpoints.h"
 #include "bake/import/warning_group.h"
@@ -240,6 +241,7 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   out.scene.materials = document.materials;
   ORIEL_TRY(nodes.movers, find_movers(nodes, options.movers, context));
   ORIEL_TRY_VOID(place_meshes(nodes, meshes, accessors, out.scene, context));
+  join_seams(out.scene);
   if (options.double_sided)
     for (SceneMaterial& material : out.scene.materials) material.double_sided = true;
   separate_layers(out.scene, context);

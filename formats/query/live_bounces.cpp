@@ -61,7 +61,7 @@ LiveBounces::LiveBounces(const LampScene& scene, std::span<const LightmapPage> p
   for (std::uint32_t p = 0; p < pages.size(); ++p)
     for (std::size_t k = 0; k < points[p].size(); ++k) {
       if (is_texel(p, k)) continue;
-      const TexelsAround around = texels_around(pages[p], points[p][k].at);
+      const TexelsAround around = texels_around(pages[p], points[p][k]);
       if (std::ranges::all_of(around.texel, [&](std::size_t t) { return row_at_[p][t] == kNone; })) add(p, k);
     }
 }

@@ -11,7 +11,7 @@ namespace oriel {
 enum class LiveIndirect { kTexels, kLights };
 
 struct LiveOptions {
-  std::uint32_t lights = 64;   // in all, for each lamp; 0: none
+  std::uint32_t lights = 64;  // in all, for each lamp; 0: none
   LiveIndirect indirect = LiveIndirect::kTexels;
   float direct_share = 0.5f;  // of them on the lamp, [0,1], where lights bring bounced light too; else all are
   std::optional<std::uint32_t> bounces = {};  // 0: direct light alone; none: 16 by texels, 3 by lights

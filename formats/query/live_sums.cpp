@@ -78,14 +78,13 @@ void add_share(LiveSum& to, float share, const LiveSum& sum) {
   to.products += double{share} * sum.products, to.squares += double{share} * sum.squares;
 }
 
-LiveSum mix_sums(const LiveSum* const (&corners)[4], const Vec2& shares) {
-  constexpr float kLeast = 1e-3f;  // of weights, so that a point at a corner without light has some
+LiveSum mix_sums(const std::array<const LiveSum*, 4>& corners, const std::array<float, 4>& weights) {
+  constexpr float kLeast = 1e-3f;  // so that a point at a corner without light has some
   LiveSum sum, out;
   float total = 0;
-  for (int c = 0; c < 4; ++c) {
+  for (std::size_t c = 0; c < 4; ++c) {
     if (corners[c] == nullptr) continue;
-    const float weight =
-        std::max(((c & 1) != 0 ? shares.x : 1 - shares.x) * ((c & 2) != 0 ? shares.y : 1 - shares.y), kLeast);
+    const float weight = std::max(weights[c], kLeast);
     add_share(sum, weight, *corners[c]);
     total += weight;
   }

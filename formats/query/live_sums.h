@@ -1,6 +1,8 @@
 // What live lights give points, now and where their lamp was baked.
 #pragma once
 
+#include <array>
+
 #include "formats/query/live_lights.h"
 
 namespace oriel {
@@ -53,8 +55,7 @@ class LiveSums {
 
 // Adds that share of it; what is seen stays.
 void add_share(LiveSum& to, float share, const LiveSum& sum);
-// Between the four texels around, the shares (x, y) being those of the right and the lower ones. Null: that one has no
-// light; not all of them.
-LiveSum mix_sums(const LiveSum* const (&corners)[4], const Vec2& shares);
+// Between four texels by their weights. Null: that one has no light; not all of them.
+LiveSum mix_sums(const std::array<const LiveSum*, 4>& corners, const std::array<float, 4>& weights);
 
 }  // namespace oriel

@@ -117,16 +117,8 @@ std::vector<PagePoint> page_points(const Mesh& mesh, std::span<const std::uint32
   return points;
 }
 
-TexelsAround texels_around(const LightmapPage& page, const Vec2& at) {
-  const IVec2 last(static_cast<int>(page.width) - 1, static_cast<int>(page.height) - 1);
-  const IVec2 first = glm::clamp(IVec2(glm::floor(at)), IVec2(0), last);
-  TexelsAround out;
-  out.shares = glm::clamp(at - Vec2(first), 0.0f, 1.0f);
-  for (int c = 0; c < 4; ++c) {
-    const IVec2 t = glm::min(first + IVec2(c & 1, c >> 1), last);
-    out.texel[static_cast<std::size_t>(c)] = static_cast<std::size_t>(t.y) * page.width + static_cast<std::size_t>(t.x);
-  }
-  return out;
+TexelsAround texels_around(const LightmapPage& page, const PagePoint& point) {
+  return texels_around((point.at + 0.5f) / Vec2(page.width, page.height), page.width, page.height);
 }
 
 void fill_from_neighbours(const LightmapPage& page, std::vector<std::uint8_t>& known, std::span<Vec3> values) {

@@ -1,10 +1,10 @@
 // Where on surfaces the light of a lightmap page lies.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
+#include "formats/assets/bilinear.h"
 #include "formats/assets/lightmap.h"
 #include "formats/assets/mesh.h"
 
@@ -22,13 +22,8 @@ struct PagePoint {
 std::vector<PagePoint> page_points(const Mesh& mesh, std::span<const std::uint32_t> without, std::uint32_t number,
                                    const LightmapPage& page);
 
-// The four texels around a place of a page (PagePoint::at), two rows of two, and the shares of the right and the lower
-// ones. At the page's edge the outer ones are the inner ones again.
-struct TexelsAround {
-  std::array<std::size_t, 4> texel{};
-  Vec2 shares{0};
-};
-TexelsAround texels_around(const LightmapPage& page, const Vec2& at);
+// The four texels around a point's place on its page.
+TexelsAround texels_around(const LightmapPage& page, const PagePoint& point);
 
 // Texels that surfaces do not need (filled from neighbours, buried) take the mean of those neighbours that have a
 // value, round by round. known: by texel, which it changes.

@@ -133,44 +133,42 @@ class Change {
     whole_ = whole;
   }
 
-  // The four texels around; null: the bake has none there.
-  void around(const PagePoint& point, const std::vector<LiveSum>& sums_of, const LiveSum* (&corners)[4],
-              Vec2& shares) const {
-    const TexelsAround around = texels_around(in_.page, point.at);
-    shares = around.shares;
-    for (std::size_t c = 0; c < 4; ++c) corners[c] = known_[around.texel[c]] != 0 ? &sums_of[around.texel[c]] : nullptr;
+  // What the four texels around have; null: the bake has none there.
+  std::array<const LiveSum*, 4> corners_of(const TexelsAround& around, const std::vector<LiveSum>& sums_of) const {
+    std::array<const LiveSum*, 4> corners{};
+    for (std::size_t c = 0; c < 4; ++c)
+      if (known_[around.texel[c]] != 0) corners[c] = &sums_of[around.texel[c]];
+    return corners;
   }
 
   // Bounced light is smooth between texels. So is direct light where all four see all of the lamp, or nothing
   // (Barczak's classes of patches); elsewhere a finer point has rays of its own.
   void at_finer(std::size_t k, LiveSums& live, LiveTotals& sums) {
     const PagePoint& point = in_.points[k];
-    const LiveSum* corners[4];
-    Vec2 shares;
-    around(point, indirect_, corners, shares);
-    const bool surrounded = std::ranges::find(corners, nullptr) == std::end(corners);
-    const bool alone = std::ranges::all_of(corners, [](const LiveSum* corner) { return corner == nullptr; });
-    const LiveSum bounced = alone ? indirect(k, live) : mix_sums(corners, shares);
-    bool smooth = surrounded;
-    around(point, direct_, corners, shares);
-    for (int c = 0; c < 4 && smooth; ++c)
-      smooth = corners[c]->sees_now != SeenLights::kSome && corners[c]->sees_baked != SeenLights::kSome &&
-               corners[c]->sees_now == corners[0]->sees_now && corners[c]->sees_baked == corners[0]->sees_baked;
-    smooth = smooth || (in_.work.coarse && !alone);
+    const TexelsAround around = texels_around(in_.page, point);
+    const auto bounced_at = corners_of(around, indirect_), direct_at = corners_of(around, direct_);
+    const bool alone = std::ranges::all_of(direct_at, [](const LiveSum* corner) { return corner == nullptr; });
+    const LiveSum bounced = alone ? indirect(k, live) : mix_sums(bounced_at, around.weight);
+    const bool smooth = !alone && (in_.work.coarse || is_smooth(direct_at));
     const LiveSum direct =
-        smooth ? mix_sums(corners, shares) : live.at(LivePart::kDirect, point.position, point.normal);
+        smooth ? mix_sums(direct_at, around.weight) : live.at(LivePart::kDirect, point.position, point.normal);
     if (smooth) sums.between += 1;
     const std::size_t i = point.index - in_.page.irradiance.size();
     change_.detail[i] =
-        settle(direct, bounced, kept_around(point), in_.own.empty() ? Vec3(0) : in_.own.detail[i], sums);
+        settle(direct, bounced, kept_around(direct_at), in_.own.empty() ? Vec3(0) : in_.own.detail[i], sums);
   }
 
-  float kept_around(const PagePoint& point) const {
-    const LiveSum* corners[4];
-    Vec2 shares;
-    around(point, direct_, corners, shares);
+  static bool is_smooth(const std::array<const LiveSum*, 4>& corners) {
+    return std::ranges::all_of(corners, [&](const LiveSum* corner) {
+      return corner != nullptr && corners[0] != nullptr && corner->sees_now != SeenLights::kSome &&
+             corner->sees_baked != SeenLights::kSome && corner->sees_now == corners[0]->sees_now &&
+             corner->sees_baked == corners[0]->sees_baked;
+    });
+  }
+
+  float kept_around(const std::array<const LiveSum*, 4>& direct_at) const {
     float sum = 0, count = 0;
-    for (const LiveSum* corner : corners)
+    for (const LiveSum* corner : direct_at)
       if (corner != nullptr) sum += kept_[static_cast<std::size_t>(corner - direct_.data())], ++count;
     return count > 0 ? sum / count : whole_;
   }

@@ -160,5 +160,53 @@ TEST(Solids, GlassWithoutVolumeIsSeenFromBothSides) {
   EXPECT_FALSE(material_of(m.scene(), 0).double_sided);
 }
 
+// A tube's ring is closed by its first points again, computed at 2π: as three.js and many scripts write it.
+void add_tube(Gltf& g, float noise) {
+  constexpr int kSides = 12;
+  std::vector<float> positions;
+  std::vector<std::uint16_t> indices;
+  const auto add = [&](double x, double y, double z) {
+    for (const double v : {x, y, z}) positions.push_back(static_cast<float>(v));
+    return static_cast<std::uint16_t>(positions.size() / 3 - 1);
+  };
+  for (int i = 0; i <= kSides; ++i) {
+    const double angle = 2 * kPiD * i / kSides;
+    for (const double y : {0.0, 1.0}) add(std::sin(angle) + (i == kSides ? noise : 0), y, std::cos(angle));
+  }
+  for (std::uint16_t i = 0; i < kSides; ++i)
+    for (const int k : {0, 2, 1, 1, 2, 3}) indices.push_back(static_cast<std::uint16_t>(2 * i + k));
+  for (const std::uint16_t top : {0, 1}) {
+    const std::uint16_t middle = add(0, top, 0);
+    for (std::uint16_t i = 0; i < kSides; ++i) {
+      const auto a = static_cast<std::uint16_t>(2 * i + top), b = static_cast<std::uint16_t>(a + 2);
+      indices.push_back(middle), indices.push_back(top != 0 ? a : b), indices.push_back(top != 0 ? b : a);
+    }
+  }
+  const int p = g.floats("VEC3", positions), i = g.indices(indices);
+  g.add({{"attributes", {{"POSITION", p}}}, {"indices", i}, {"material", 0}});
+}
+
+TEST(Solids, ASeamThatRoundingLeftOpenIsClosed) {
+  for (const float noise : {0.0f, 1e-6f, 1e-3f}) {
+    Gltf g = with(kGlass);
+    add_tube(g, noise);
+    const Imported r = import(g);
+    ASSERT_TRUE(r.ok()) << r.error();
+    EXPECT_EQ(material_of(r.scene(), 0).solid, noise < 1e-4f) << noise;
+  }
+}
+
+// Open edges may be as near to each other as they like where triangles lie between.
+TEST(Solids, ASliverKeepsItsArea) {
+  Gltf g = with(kGlass);
+  const int p = g.floats("VEC3", {0, 0, 0, 1, 0, 0, 1, 1e-7f, 0, 0, 1, 0});
+  const int i = g.indices(std::vector<std::uint16_t>{0, 1, 2, 0, 2, 3});
+  g.add({{"attributes", {{"POSITION", p}}}, {"indices", i}, {"material", 0}});
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  ASSERT_EQ(r.scene().triangles.size(), 2u);
+  for (std::uint32_t t = 0; t < 2; ++t) EXPECT_GT(triangle_area(r.scene(), t), 0);
+}
+
 }  // namespace
 }  // namespace oriel::test
