@@ -2,43 +2,78 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
+#include <span>
 
 #include "bake/import/warning_group.h"
+#include "formats/core/disjoint_sets.h"
 
 namespace oriel {
 namespace {
 
 using Corner = std::array<float, 3>;
 
+// Triangles of a shell that hang together. Volume: m³, below 0 where fronts face inwards.
+struct Piece {
+  double volume = 0, area = 0;
+  Vec3 lower{std::numeric_limits<float>::infinity()}, upper{-lower};
+  bool encloses(const Piece& other) const {
+    return glm::all(glm::lessThanEqual(lower, other.lower)) && glm::all(glm::greaterThanEqual(upper, other.upper));
+  }
+};
+
 // How many edges have another number of triangles on one side than on the other, and the volume enclosed, m³.
 struct Shell {
   std::size_t open_edges = 0;
   double volume = 0;
-  bool is_solid() const { return open_edges == 0 && volume > 0; }
+  std::vector<Piece> pieces;
+  bool is_closed() const { return open_edges == 0; }
+  bool is_solid() const { return is_closed() && volume > 0; }
   std::string fault() const {
-    return open_edges > 0 ? fmt::format("found {} open edges, expected a closed surface", open_edges)
-                          : "found its front inwards, expected it outwards";
+    return is_closed() ? "found its front inwards, expected it outwards"
+                       : fmt::format("found {} open edges, expected a closed surface", open_edges);
   }
 };
+
+std::vector<Piece> pieces_of(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Piece> each,
+                             std::size_t corners) {
+  DisjointSets sets(corners);
+  for (const auto& id : triangles) sets.join(id[0], id[1]), sets.join(id[0], id[2]);
+  std::map<std::size_t, Piece> found;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    Piece& piece = found[sets.root(triangles[t][0])];
+    piece.volume += each[t].volume, piece.area += each[t].area;
+    piece.lower = glm::min(piece.lower, each[t].lower), piece.upper = glm::max(piece.upper, each[t].upper);
+  }
+  std::vector<Piece> pieces;
+  for (const auto& [root, piece] : found) pieces.push_back(piece);
+  return pieces;
+}
 
 Shell shell_of(const Scene& scene, const std::vector<std::uint32_t>& surfaces) {
   std::map<Corner, std::uint32_t> corners;
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // low to high corner: how often, less the other way
+  std::vector<std::array<std::uint32_t, 3>> triangles;           // by corner
+  std::vector<Piece> each;                                       // by triangle
   Shell shell;
   for (const std::uint32_t s : surfaces) {
     const Surface& surface = scene.surfaces[s];
     for (std::uint32_t t = 0; t < surface.triangle_count; ++t) {
       const UVec3& triangle = scene.triangles[surface.first_triangle + t];
-      std::array<std::uint32_t, 3> id{};
+      std::array<std::uint32_t, 3>& id = triangles.emplace_back();
+      Piece& piece = each.emplace_back();
       DVec3 p[3];
       for (int k = 0; k < 3; ++k) {
         const Vec3 at = scene.positions[triangle[k]] + 0.0f;  // -0 is 0
         p[k] = DVec3(at);
+        piece.lower = glm::min(piece.lower, at), piece.upper = glm::max(piece.upper, at);
         const auto number = static_cast<std::uint32_t>(corners.size());
         id[static_cast<std::size_t>(k)] = corners.try_emplace(Corner{at.x, at.y, at.z}, number).first->second;
       }
-      shell.volume += glm::dot(p[0], glm::cross(p[1], p[2])) / 6;
+      piece.volume = glm::dot(p[0], glm::cross(p[1], p[2])) / 6;
+      piece.area = glm::length(glm::cross(p[1] - p[0], p[2] - p[0])) / 2;
+      shell.volume += piece.volume;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t from = id[k], to = id[(k + 1) % 3];
         edges[std::minmax(from, to)] += from < to ? 1 : -1;
@@ -47,6 +82,7 @@ Shell shell_of(const Scene& scene, const std::vector<std::uint32_t>& surfaces) {
   }
   shell.open_edges =
       static_cast<std::size_t>(std::ranges::count_if(edges, [](const auto& e) { return e.second != 0; }));
+  if (shell.is_closed()) shell.pieces = pieces_of(triangles, each, corners.size());
   return shell;
 }
 
@@ -54,25 +90,94 @@ bool may_be_solid(const SceneMaterial& m) {
   return m.alpha_mode == AlphaMode::kOpaque && m.metal == Metal::kNone && !m.unlit;
 }
 
+// A surface of solid glass that is taken for a pane, and why; nothing to be told where it is right so.
+struct Pane {
+  std::string fault;
+  float wall_m = 0;  // of glass that is crossed with each of its faces
+};
+
+// Closed surfaces of one material and mover: bodies, and the walls of hollows in them.
+class Hollows {
+ public:
+  explicit Hollows(const Scene& scene) : scene_(scene) {}
+  void add(std::uint32_t surface, std::span<const Piece> pieces) {
+    for (const Piece& piece : pieces) (piece.volume > 0 ? bodies_ : cavities_).push_back({surface, piece});
+  }
+  // Bodies that are mostly air become panes, with their hollows: bulbs, bottles. Their glass is too thin to bend light
+  // that matters, and lamps in them would be found by chance alone. Hollows in other bodies stay walls of solid glass.
+  void settle(std::map<std::uint32_t, Pane>& panes) const {
+    std::map<std::uint32_t, double> air_in, glass_in;  // m³, by surface
+    std::vector<const Part*> around;
+    for (const Part& cavity : cavities_) {
+      const Part* body = body_around(cavity);
+      around.push_back(body);
+      if (body != nullptr) air_in[body->surface] -= cavity.piece.volume;
+    }
+    for (const Part& body : bodies_) glass_in[body.surface] += body.piece.volume;
+    for (std::size_t i = 0; i < cavities_.size(); ++i) {
+      const Part* body = around[i];
+      const std::uint32_t inner = cavities_[i].surface;
+      if (body == nullptr) continue;
+      panes.erase(inner);  // it faces inwards as it should
+      const double glass = glass_in[body->surface], air = air_in[body->surface];
+      if (air < kMostlyAir * glass) continue;
+      const auto wall = static_cast<float>((glass - air) / area_of(body->surface));
+      panes[body->surface] = panes[inner] = {"", wall / 2};
+    }
+  }
+
+ private:
+  struct Part {
+    std::uint32_t surface;
+    Piece piece;
+  };
+  static constexpr double kMostlyAir = 0.5;  // of the volume within the outer surface
+
+  const Part* body_around(const Part& cavity) const {
+    const auto kind = [&](const Part& p) {
+      return std::pair(scene_.surfaces[p.surface].material, scene_.surfaces[p.surface].mover);
+    };
+    const Part* best = nullptr;
+    for (const Part& body : bodies_)
+      if (kind(body) == kind(cavity) && body.piece.volume > -cavity.piece.volume && body.piece.encloses(cavity.piece) &&
+          (best == nullptr || body.piece.volume < best->piece.volume))
+        best = &body;
+    return best;
+  }
+  double area_of(std::uint32_t surface) const {
+    double area = 0;
+    for (const Part& body : bodies_) area += body.surface == surface ? body.piece.area : 0;
+    return area;
+  }
+
+  const Scene& scene_;
+  std::vector<Part> bodies_, cavities_;
+};
+
 // The surfaces that are no solids by themselves or together, and why.
-std::map<std::uint32_t, std::string> find_thin(const Scene& scene) {
+std::map<std::uint32_t, Pane> find_panes(const Scene& scene) {
   std::map<std::pair<std::uint32_t, std::int32_t>, std::vector<std::uint32_t>> open;  // by material and mover
-  std::map<std::uint32_t, std::string> thin;
+  std::map<std::uint32_t, Pane> panes;
+  Hollows hollows(scene);
   for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
     const Surface& surface = scene.surfaces[s];
     const SceneMaterial& m = scene.materials[surface.material];
     if (!m.solid) continue;
     if (!may_be_solid(m)) {
-      thin.emplace(s, "found an alpha mode, a metal or an unlit material, expected opaque glass");
-    } else if (const Shell shell = shell_of(scene, {s}); !shell.is_solid()) {
-      thin.emplace(s, shell.fault());
-      open[{surface.material, surface.mover}].push_back(s);
+      panes[s] = {"found an alpha mode, a metal or an unlit material, expected opaque glass", m.thickness_m};
+      continue;
     }
+    const Shell shell = shell_of(scene, {s});
+    hollows.add(s, shell.pieces);
+    if (shell.is_solid()) continue;
+    panes[s] = {shell.fault(), m.thickness_m};
+    open[{surface.material, surface.mover}].push_back(s);
   }
   for (const auto& [of, surfaces] : open)
     if (surfaces.size() > 1 && shell_of(scene, surfaces).is_solid())
-      for (const std::uint32_t s : surfaces) thin.erase(s);
-  return thin;
+      for (const std::uint32_t s : surfaces) panes.erase(s);
+  hollows.settle(panes);
+  return panes;
 }
 
 }  // namespace
@@ -81,22 +186,24 @@ void find_solids(Scene& scene, Context& context) {
   // Light that enters a body of panes leaves it by their backs.
   for (SceneMaterial& m : scene.materials) m.double_sided = m.double_sided || (m.transmission > 0 && !m.solid);
   if (std::ranges::none_of(scene.materials, [](const SceneMaterial& m) { return m.solid; })) return;
-  const auto thin = find_thin(scene);
-  std::map<std::uint32_t, std::uint32_t> copies;  // by material: the pane
-  WarningGroup panes(context, "surfaces of solid glass that are taken for thin panes");
-  for (const auto& [s, fault] : thin) {
+  const auto panes = find_panes(scene);
+  std::map<std::pair<std::uint32_t, float>, std::uint32_t> copies;  // by material and wall: the pane
+  WarningGroup told(context, "surfaces of solid glass that are taken for thin panes");
+  for (const auto& [s, found] : panes) {
     Surface& surface = scene.surfaces[s];
-    const auto [copy, is_new] = copies.try_emplace(surface.material, scene.materials.size());
+    const auto [copy, is_new] = copies.try_emplace({surface.material, found.wall_m}, scene.materials.size());
     if (is_new) {
       SceneMaterial pane = scene.materials[surface.material];
       pane.name += " (thin)";
       pane.solid = false, pane.double_sided = true;
+      pane.base_color *= glm::exp(-pane.absorption * found.wall_m);
       scene.materials.push_back(std::move(pane));
     }
-    panes.add(fmt::format("surface \"{}\" of solid glass: {}: taken for a thin pane", surface.name, fault));
+    if (!found.fault.empty())
+      told.add(fmt::format("surface \"{}\" of solid glass: {}: taken for a thin pane", surface.name, found.fault));
     surface.material = copy->second;
   }
-  panes.finish();
+  told.finish();
   for (SceneMaterial& m : scene.materials) m.double_sided = m.double_sided && !m.solid;
 }
 

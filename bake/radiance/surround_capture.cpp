@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kRaysARow = 2048;        // about
 constexpr std::uint32_t kSunPoints = 64;  // of a disk
+constexpr float kGlass = 0.5f;            // transmission from which a surface is seen through
 constexpr float kBeforeLight = 1e-4f;     // of its distance: what holds a light does not hide it
 
 class SurroundCapture {
@@ -22,6 +23,7 @@ class SurroundCapture {
                   const OutgoingRadiance& outgoing)
       : scene_(accel.scene()),
         outgoing_(outgoing),
+        of_glass_(is_glass(reflector.triangles.front())),
         rays_(accel, found.objects[reflector.object], found.maps[reflector.reflector.map].centre, reflector.view) {}
 
   // The light of layers is asked for when it is known which of them lie outside: lobes are traced there, and a ray
@@ -29,9 +31,13 @@ class SurroundCapture {
   SurroundSight look(const Vec3& direction, Vec3& radiance) {
     SurroundSight sight = rays_.look(direction);
     radiance = Vec3(0);
-    for (const SurroundSight::Layer& layer : sight.layers)
+    for (const SurroundSight::Layer& layer : sight.layers) {
+      // What glass mirrors of what glass mirrors is a thousandth, but of a bulb too bright for a map's one distance.
+      const bool faint = of_glass_ && is_glass(layer.hit.triangle);
       radiance +=
-          layer.share * usable_light(outgoing_({.hit = layer.hit, .towards_eye = -direction, .rays = &traced_}));
+          layer.share *
+          usable_light(outgoing_({.hit = layer.hit, .towards_eye = -direction, .mirror = faint, .rays = &traced_}));
+    }
     if (!sight.ended && sight.valid != 0) radiance += sight.throughput * usable_light(sky_radiance(scene_, direction));
     return sight;
   }
@@ -45,7 +51,10 @@ class SurroundCapture {
 
  private:
   const Scene& scene_;
+  bool is_glass(std::uint32_t triangle) const { return scene_.material_of(triangle).transmission >= kGlass; }
+
   const OutgoingRadiance& outgoing_;
+  bool of_glass_;
   SurroundRays rays_;
   std::uint64_t traced_ = 0;  // by outgoing_
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 
 #include "bake/brdf/microfacet.h"
@@ -22,6 +23,7 @@ constexpr float kSeeThrough = 0.5f;       // transmittance from which a surface 
 constexpr float kMirror = 1e-3f;          // alpha up to which a lobe has one direction
 constexpr float kSame = 1e-3f;            // of the distance: so near is the same surface
 constexpr float kLeastDistance_m = 0.5f;  // of eyes, for their solid angle
+constexpr float kNearly = 0.9f;           // of what other views see, from which glass leaves out what is within it
 constexpr float kGain = 1.02f;            // what a place must see more than the middle to replace it
 
 // What an eye sees in the reflector, and by how much it counts.
@@ -53,17 +55,24 @@ class Viewpoint {
     SurroundView view = SurroundView::kOutside;
   };
   Choice best(const Vec3& middle) const {
-    Choice best{middle};
     const std::vector<Reflection> seen = reflections();
-    if (seen.empty()) return best;
-    float most = kGain * share_seen(best, seen);
-    for (const SurroundView view : {SurroundView::kOutside, SurroundView::kHollow, SurroundView::kBeyondBounds})
-      for (const Vec3& place : candidates(seen))
-        if (const float share = share_seen({place, view}, seen); share > most) best = {place, view}, most = share;
+    if (seen.empty()) return {middle};
+    const std::vector<Vec3> places = candidates(seen);
+    const auto best_of = [&](std::initializer_list<SurroundView> views) {
+      Choice best{middle, *views.begin()};
+      float most = kGain * share_seen(best, seen);
+      for (const SurroundView view : views)
+        for (const Vec3& place : places)
+          if (const float share = share_seen({place, view}, seen); share > most) best = {place, view}, most = share;
+      return best;
+    };
     // What lies within the bounds and is mirrored to no eye would still leak into wide lobes: a bulb, a thousand times
-    // as bright as all else.
-    const Choice beyond{best.place, SurroundView::kBeyondBounds};
-    return share_seen(beyond, seen) >= share_seen(best, seen) ? beyond : best;
+    // as bright as all else. Glass round a bulb mirrors it but faintly, and a map has one distance each way: where the
+    // bulb is near it showed in the wrong places, or not at all.
+    const Choice best = best_of({SurroundView::kOutside, SurroundView::kHollow}),
+                 beyond = best_of({SurroundView::kBeyondBounds});
+    const bool glass = scene_.material_of(reflector_.triangles.front()).transmission >= kSeeThrough;
+    return share_seen(beyond, seen) >= (glass ? kNearly : 1.0f) * share_seen(best, seen) ? beyond : best;
   }
 
  private:
@@ -112,9 +121,9 @@ class Viewpoint {
     for (int layer = 0; layer < kLayers; ++layer) {
       const Hit hit = accel_.intersect(ray);
       if (!hit) return hit;
-      const bool passes = is_among(scene_, object_.triangles, hit.triangle)
-                              ? !hit.front
-                              : max_component(transmittance_at(scene_, hit.triangle, hit.barycentric)) >= kSeeThrough;
+      const bool own_back = !hit.front && is_among(scene_, object_.triangles, hit.triangle);
+      const bool passes =
+          own_back || max_component(transmittance_at(scene_, hit.triangle, hit.barycentric)) >= kSeeThrough;
       if (!passes) return hit;
       ray.origin = spawn_origin(scene_, hit.triangle, hit.barycentric, direction);
     }

@@ -97,7 +97,7 @@ bool traces_lobe(const BakedScene& baked, const SeenSurface& seen) {
 OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing) {
   return [&](const SeenSurface& seen) {
     SeenSurface shown = seen;
-    shown.glossy = seen.glossy || triangles[seen.hit.triangle];
+    shown.glossy = seen.glossy || (!seen.mirror && triangles[seen.hit.triangle]);
     return outgoing(shown);
   };
 }

@@ -160,6 +160,56 @@ TEST(Solids, GlassWithoutVolumeIsSeenFromBothSides) {
   EXPECT_FALSE(material_of(m.scene(), 0).double_sided);
 }
 
+// A cube of 1 m with a cube of air in its middle, as one mesh or as two.
+Gltf hollow_cube(float air_m, bool one_mesh) {
+  Gltf g = with(kGlass);
+  std::vector<float> positions;
+  std::vector<std::uint16_t> indices;
+  const auto write = [&] {
+    const int p = g.floats("VEC3", positions), i = g.indices(indices);
+    g.add({{"attributes", {{"POSITION", p}}}, {"indices", i}, {"material", 0}});
+    positions.clear(), indices.clear();
+  };
+  for (const bool inner : {false, true}) {
+    for (const auto& face : kFaces) {
+      const auto base = static_cast<std::uint16_t>(positions.size() / 3);
+      for (const auto& corner : face)
+        for (const int x : corner) positions.push_back(0.5f + (inner ? air_m : 1.0f) * (float(x) - 0.5f));
+      for (const int k : {0, 1, 2, 0, 2, 3}) indices.push_back(static_cast<std::uint16_t>(base + k));
+      if (inner)
+        for (std::size_t k = indices.size() - 6; k < indices.size(); k += 3) std::swap(indices[k + 1], indices[k + 2]);
+    }
+    if (inner || !one_mesh) write();
+  }
+  return g;
+}
+
+TEST(Solids, WhatIsMostlyAirIsPanesAndABubbleIsAWall) {
+  for (const bool one_mesh : {false, true})
+    for (const float air_m : {0.5f, 0.9f}) {
+      const Imported r = import(hollow_cube(air_m, one_mesh));
+      ASSERT_TRUE(r.ok()) << r.error();
+      EXPECT_TRUE(r.warnings.empty()) << (r.warnings.empty() ? "" : r.warnings[0]);
+      for (std::size_t s = 0; s < r.scene().surfaces.size(); ++s) {
+        const SceneMaterial& m = material_of(r.scene(), s);
+        EXPECT_EQ(m.solid, air_m < 0.8f);
+        EXPECT_EQ(m.double_sided, air_m > 0.8f);
+        if (m.solid) continue;
+        // Half of the glass over the outside, (1 - 0.9³) / 6, at each of the two faces of a wall.
+        EXPECT_NEAR(m.base_color.b, std::exp(-std::log(4) / 0.5 * (1 - 0.729) / 12), 1e-4);
+      }
+    }
+}
+
+TEST(Solids, OpenGlassKeepsTheTintOfItsThickness) {
+  Gltf g = with(kGlass);
+  add_faces(g, 0, 1);
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_NEAR(material_of(r.scene(), 0).base_color.b, std::pow(0.25, 0.1 / 0.5), 1e-5);
+  EXPECT_EQ(material_of(r.scene(), 0).base_color.r, 1);
+}
+
 // A tube's ring is closed by its first points again, computed at 2π: as three.js and many scripts write it.
 void add_tube(Gltf& g, float noise) {
   constexpr int kSides = 12;

@@ -78,6 +78,21 @@ TEST(SurroundViewpoints, AHollowThingSeesItself) {
 
 constexpr std::uint32_t kBulb = 7;  // its material, and so its light in the map
 
+// Both sides of all that has that name are lit.
+void split(test::MirrorRoom& room, const std::string& name) {
+  std::vector<LitSides> lit;
+  for (const std::uint32_t s : room.scene.triangle_surface)
+    lit.push_back(room.scene.surfaces[s].name == name ? LitSides::kBoth : LitSides::kFront);
+  room.scene = split_sides(std::move(room.scene), lit);
+}
+
+void capture(const test::MirrorRoom& room, FoundCurvedReflectors& found) {
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  Context context;
+  ASSERT_TRUE(capture_surroundings(*accel, found, room.outgoing(), context));
+}
+
 bool shows_bulb(const SurroundMap& map) {
   return std::ranges::count(map.radiance, test::MirrorRoom::colour(kBulb)) > 0;
 }
@@ -94,21 +109,32 @@ TEST(SurroundViewpoints, TheOutsideOfAShadeDoesNotShowItsBulb) {
   });
   room.scene.materials[0].double_sided = true;
   room.scene.materials[0].roughness = 0.25f;
-  std::vector<LitSides> lit;
-  for (const std::uint32_t s : room.scene.triangle_surface)
-    lit.push_back(room.scene.surfaces[s].name == "shade" ? LitSides::kBoth : LitSides::kFront);
-  room.scene = split_sides(std::move(room.scene), lit);
+  split(room, "shade");
   FoundCurvedReflectors found = placed(room, {{2.2f, 2.1f, 4}, {2.2f, 1.7f, 2.2f}, {2.8f, 0.2f, 3.2f}});
   ASSERT_EQ(found.maps.size(), 2u);
-  const auto accel = Accel::build(room.scene);
-  ASSERT_TRUE(accel);
-  Context context;
-  ASSERT_TRUE(capture_surroundings(*accel, found, room.outgoing(), context));
+  capture(room, found);
   for (const FoundCurvedReflector& side : found.reflectors) {
     const std::uint32_t t = side.triangles.front();
     const bool inside = room.scene.twin[t] > t;  // fronts face inwards
     EXPECT_EQ(shows_bulb(found.maps[side.reflector.map]), inside);
   }
+}
+
+// A globe of thin glass round a bulb. From far no ray that its walls mirror ends at the bulb.
+TEST(SurroundViewpoints, AGlobeDoesNotMirrorTheBulbInIt) {
+  const Vec3 middle(2, 1.5f, 3);
+  auto room = room_with([&](test::SceneParts& parts) {
+    parts.sphere("globe", 0, middle, 0.2f, 3);
+    parts.diffuse(Vec3(0.5f));
+    parts.box("bulb", kBulb, middle - 0.02f, middle + 0.02f);
+  });
+  SceneMaterial& glass = room.scene.materials[0];
+  glass.double_sided = true, glass.metallic = 0, glass.transmission = 1, glass.base_color = Vec3(1);
+  split(room, "globe");
+  FoundCurvedReflectors found = placed(room, {{2.2f, 2.1f, 4.5f}, {3.5f, 1.7f, 1.5f}, {0.5f, 1.2f, 3.2f}});
+  ASSERT_EQ(found.maps.size(), 2u);
+  capture(room, found);
+  for (const SurroundMap& map : found.maps) EXPECT_FALSE(shows_bulb(map));
 }
 
 }  // namespace
