@@ -64,6 +64,26 @@ TEST(Image, WebPStandsBeforeItsFallback) {
   EXPECT_EQ(r.scene().images[0].texels[8], 170);
 }
 
+// Files of Windows: names part by \ and in any case, where no file is named as written.
+TEST(Image, FilesAreFoundAsWindowsFindsThem) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.path() / "Textures");
+  const auto write = [&](const char* name) { folder.write(name, std::string(kWebp2x2, sizeof(kWebp2x2) - 1)); };
+  write("Textures/Wood.webp");
+  Gltf g = textured(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  const auto found = [&](const char* uri) {
+    g.doc["images"][0] = {{"uri", uri}};
+    const Imported r = import_file(folder.write("scene.gltf", g.text()));
+    return r.ok() && r.scene().images.size() == 1;
+  };
+  EXPECT_TRUE(found("Textures/Wood.webp"));
+  EXPECT_TRUE(found("textures\\WOOD.webp"));
+  EXPECT_FALSE(found("textures/woods.webp"));
+  write("Textures/wood.WEBP");
+  EXPECT_FALSE(found("textures/wood.webp")) << "two files it could be";
+  EXPECT_TRUE(found("Textures/Wood.webp"));
+}
+
 // What cannot be read is told of, with what is shown instead or what to do.
 TEST(Extensions, WhatIsLeftOutIsNamed) {
   const auto with = [](const char* name, bool fallback, bool required) {
