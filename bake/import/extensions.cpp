@@ -33,6 +33,7 @@ const std::map<std::string, Extension>& extensions() {
       {"KHR_materials_variants", {Support::kWithout, "meshes have their own materials, those of no variant"}},
       {"KHR_xmp", {Support::kWithout}},
       {"KHR_xmp_json_ld", {Support::kWithout}},
+      {"KHR_node_visibility", {Support::kNone, "what it hides is shown"}},
       {"EXT_lights_image_based", {Support::kNone, "its light does not shine; --sky takes an image of the sky"}},
       {"KHR_texture_basisu", {Support::kOtherImages, kConvertImages}},
       {"MSFT_texture_dds", {Support::kOtherImages, kConvertImages}},
