@@ -22,34 +22,37 @@ void morph(std::span<const double> weights, TriangleMesh& mesh) {
   }
 }
 
-// From the root on: a skeleton may stand outside of the scene that is shown.
-DMat4 world_from(const Document& document, std::uint32_t node) {
-  DMat4 matrix = document.nodes[node].matrix;
-  for (int parent = document.nodes[node].parent; parent >= 0;) {
-    const gltf::NodeDesc& above = document.nodes[static_cast<std::size_t>(parent)];
-    matrix = above.matrix * matrix;
-    parent = above.parent;
+// Of the joints of a node's skin.
+Result<std::vector<DMat4>> world_from_joints(const PosedNodes& nodes, const NodePose& pose) {
+  const Document& document = nodes.document;
+  const int number = document.nodes[pose.node].skin;
+  std::vector<DMat4> matrices;
+  for (const std::uint32_t joint : document.skins[static_cast<std::size_t>(number)].joints) {
+    const std::int32_t at = nodes.pose_of[joint];
+    if (at < 0)
+      return invalid(fmt::format("{}: skins[{}]", document.file, number),
+                     "found the joint nodes[{}] outside of the scene, expected it in that of nodes[{}]", joint,
+                     pose.node);
+    matrices.push_back(nodes.poses[static_cast<std::size_t>(at)].world_from_node);
   }
-  return matrix;
+  return matrices;
 }
 
 // By joint, to a space whose axes are the world's and whose origin is `base`: floats hold what is near it.
-Result<std::vector<DMat4>> joint_matrices(const Document& document, const gltf::SkinDesc& skin, const DVec3& base,
-                                          gltf::AccessorReader& accessors) {
+Result<std::vector<DMat4>> joint_matrices(std::vector<DMat4> world_from_joint, const gltf::SkinDesc& skin,
+                                          const DVec3& base, gltf::AccessorReader& accessors) {
   std::span<const float> inverse;
   if (skin.inverse_bind >= 0) {
     ORIEL_TRY(inverse, accessors.floats(skin.inverse_bind));
   }
-  std::vector<DMat4> matrices;
   for (std::size_t i = 0; i < skin.joints.size(); ++i) {
     DMat4 joint_from_mesh(1);
     for (std::size_t k = 0; k < 16 && !inverse.empty(); ++k)
       joint_from_mesh[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = inverse[16 * i + k];
-    DMat4 base_from_joint = world_from(document, skin.joints[i]);
-    base_from_joint[3] -= DVec4(base, 0);
-    matrices.push_back(base_from_joint * joint_from_mesh);
+    world_from_joint[i][3] -= DVec4(base, 0);
+    world_from_joint[i] = world_from_joint[i] * joint_from_mesh;
   }
-  return matrices;
+  return world_from_joint;
 }
 
 Status bend(std::span<const DMat4> joints, TriangleMesh& mesh) {
@@ -98,8 +101,9 @@ Result<std::optional<RestShape>> rest_shape(const PosedNodes& nodes, const NodeP
   std::vector<DMat4> joints;
   if (skinned) {
     const gltf::SkinDesc& skin = document.skins[static_cast<std::size_t>(node.skin)];
-    const DVec3 base(world_from(document, skin.joints.front())[3]);
-    ORIEL_TRY(joints, joint_matrices(document, skin, base, accessors));
+    ORIEL_TRY(joints, world_from_joints(nodes, pose));
+    const DVec3 base(joints.front()[3]);
+    ORIEL_TRY(joints, joint_matrices(std::move(joints), skin, base, accessors));
     out.world_from_mesh = DMat4(1);
     out.world_from_mesh[3] = DVec4(base, 1);
   }

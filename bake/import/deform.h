@@ -12,7 +12,8 @@ struct RestShape {
 };
 
 // The shape of a node's mesh, or none where it is the stored one: no weights and no skin. A skinned mesh stands where
-// its joints are, whatever the transform of its own node. Error kInvalid for a joint that the skin does not have.
+// its joints are, whatever the transform of its own node. Error kInvalid for a joint that the skin does not have,
+// or that is not in the scene.
 Result<std::optional<RestShape>> rest_shape(const PosedNodes& nodes, const NodePose& pose, const gltf::LoadedMesh& mesh,
                                             gltf::AccessorReader& accessors);
 

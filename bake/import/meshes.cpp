@@ -169,8 +169,9 @@ class PrimitiveLoader {
       const std::size_t first = mesh.influences.size();
       for (std::size_t set = 0; set < joints.size(); ++set)
         for (std::size_t k = 4 * std::size_t{vertex}; k < 4 * std::size_t{vertex} + 4; ++k) {
-          const float weight = std::max(weights[set].values[k], 0.0f);
-          mesh.influences.push_back({static_cast<std::uint32_t>(joints[set].values[k]), weight});
+          const float weight = std::fmax(weights[set].values[k], 0.0f);
+          const float joint = std::fmin(std::fmax(joints[set].values[k], 0.0f), 65535.0f);  // Draco's are anything
+          mesh.influences.push_back({static_cast<std::uint32_t>(joint), weight});
           sum += weight;
         }
       for (std::size_t k = first; k < mesh.influences.size(); ++k)

@@ -295,6 +295,7 @@ std::uint32_t of_metal(std::uint32_t material, Metal metal,
 
 Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uint32_t> roots) {
   PosedNodes nodes{document, {}};
+  nodes.pose_of.assign(document.nodes.size(), -1);
   std::vector<NodePose> waiting;
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.push_back({*root, DMat4(1)});
   while (!waiting.empty()) {
@@ -306,6 +307,7 @@ Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uin
       return invalid(node_path(document, pose.node), "found a world transform that overflows, expected a finite one");
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       waiting.push_back({*child, pose.world_from_node});
+    nodes.pose_of[pose.node] = static_cast<std::int32_t>(nodes.poses.size());
     nodes.poses.push_back(pose);
   }
   return nodes;

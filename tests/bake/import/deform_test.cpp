@@ -134,6 +134,9 @@ TEST(Deform, BadSkinsAreRefused) {
   Gltf used = skinned({0, 1});
   used.doc["skins"][0]["joints"] = {2};
   EXPECT_NE(import(used).error().find("found joint 1"), std::string::npos) << import(used).error();
+  Gltf elsewhere = skinned({1, 0});
+  elsewhere.doc["scenes"][0]["nodes"] = {0};
+  EXPECT_NE(import(elsewhere).error().find("the joint nodes[2] outside of the scene"), std::string::npos);
   Gltf empty = skinned({1, 0});
   empty.doc["skins"][0]["joints"] = json::array();
   EXPECT_NE(import(empty).error().find("at least one joint"), std::string::npos) << import(empty).error();
