@@ -2,8 +2,11 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
+
 #include "formats/core/file.h"
 #include "formats/core/hash.h"
+#include "formats/core/text.h"
 
 namespace oriel::gltf {
 namespace {
@@ -47,6 +50,29 @@ Result<Bytes> decode_meshopt(const MeshoptDesc& desc, std::span<const std::byte>
   return out;
 }
 
+// The file of a name, as written or else as Windows finds it: \ parts folders, and cases are alike. The name as written
+// where no file has it, or two differ by their case alone.
+std::filesystem::path find_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
+  std::error_code ec;
+  const std::filesystem::path written = folder / name;
+  if (std::filesystem::exists(written, ec)) return written;
+  std::string slashed = name.string();
+  std::ranges::replace(slashed, '\\', '/');
+  std::filesystem::path at = folder.empty() ? "." : folder;
+  for (const std::filesystem::path& part : std::filesystem::path(slashed)) {
+    if (std::filesystem::exists(at / part, ec)) {
+      at /= part;
+      continue;
+    }
+    std::vector<std::filesystem::path> alike;
+    for (const auto& entry : std::filesystem::directory_iterator(at, ec))
+      if (lower_case(entry.path().filename().string()) == lower_case(part.string())) alike.push_back(entry.path());
+    if (alike.size() != 1) return written;
+    at = alike.front();
+  }
+  return at;
+}
+
 }  // namespace
 
 Status MemoryBudget::take(std::uint64_t bytes, const std::string& where) {
@@ -61,7 +87,7 @@ Status MemoryBudget::take(std::uint64_t bytes, const std::string& where) {
 Result<Bytes> read_external(const std::string& uri, const std::filesystem::path& folder, const std::string& where,
                             MemoryBudget& budget, InputHashes& inputs) {
   ORIEL_TRY(const std::filesystem::path name, path_from_uri(uri, where));
-  const std::filesystem::path path = folder / name;
+  const std::filesystem::path path = find_file(folder, name);
   std::error_code ec;
   const auto status = std::filesystem::status(path, ec);
   if (!std::filesystem::exists(status)) return invalid(where, "found no file \"{}\", expected one", path.string());

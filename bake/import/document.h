@@ -71,22 +71,32 @@ struct DracoDesc {
   std::map<std::string, std::uint32_t> attributes;  // semantic → unique id in the Draco mesh
 };
 
+// A morph target: what it adds to vertices.
+struct TargetDesc {
+  std::map<std::string, int> attributes;  // semantic → accessor
+  bool used = false;                      // some node gives it a weight
+};
+
 struct PrimitiveDesc {
   std::string path;  // "meshes[0].primitives[1]"
   int mode = 4;
   int indices = -1, material = -1;
   std::map<std::string, int> attributes;  // semantic → accessor
+  std::vector<TargetDesc> targets;
+  bool skinned = false;  // by some node
   std::optional<DracoDesc> draco;
 };
 
 struct MeshDesc {
   std::string name;
+  std::vector<double> weights;  // of morph targets, where a node has none of its own
   std::vector<PrimitiveDesc> primitives;
 };
 
 struct NodeDesc {
   std::string name;
-  int mesh = -1, camera = -1, light = -1, parent = -1;
+  int mesh = -1, camera = -1, light = -1, skin = -1, parent = -1;
+  std::vector<double> weights;    // of its mesh's morph targets; empty: the mesh's
   Metal metal = Metal::kNone;     // extras.oriel_metal: of all that its mesh shows
   bool mover = false;             // extras.oriel.mover
   std::string light_group;        // extras.oriel.light_group
@@ -101,6 +111,11 @@ struct NodeDesc {
 };
 // parent_from_node of a translation, a unit quaternion and a scale.
 DMat4 matrix_from_trs(const DVec3& translation, const DVec4& rotation, const DVec3& scale);
+
+struct SkinDesc {
+  std::vector<std::uint32_t> joints;  // nodes
+  int inverse_bind = -1;              // accessor of a matrix a joint; -1: identities
+};
 
 struct CameraDesc {
   std::string name;
@@ -137,6 +152,7 @@ struct Document {
   std::vector<SceneMaterial> materials;  // texture slots hold indices into images
   std::vector<MeshDesc> meshes;
   std::vector<NodeDesc> nodes;
+  std::vector<SkinDesc> skins;
   std::vector<SceneDesc> scenes;
   std::vector<CameraDesc> cameras;
   std::vector<Light> lights;  // not placed

@@ -60,9 +60,31 @@ Result<Bytes> essential_png(std::span<const std::byte> bytes, const std::string&
   return invalid(name, "found a PNG without IEND, expected one");
 }
 
+bool is_webp(std::span<const std::byte> bytes) {
+  return starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8);
+}
+
+std::uint32_t little_endian(std::span<const std::byte> bytes, std::size_t at, std::size_t count) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) value |= static_cast<std::uint32_t>(bytes[at + i]) << (8 * i);
+  return value;
+}
+
+// As the first chunk has it (RFC 9649). libwebp decodes as it opens a file: what it will need is asked before.
+Result<ImageSize> webp_size(std::span<const std::byte> bytes, const std::string& name) {
+  if (bytes.size() >= 30 && starts_with(bytes, "VP8X", 12))
+    return ImageSize{little_endian(bytes, 24, 3) + 1, little_endian(bytes, 27, 3) + 1};
+  if (bytes.size() >= 30 && starts_with(bytes, "VP8L", 12) && bytes[20] == std::byte{0x2F}) {
+    const std::uint32_t sides = little_endian(bytes, 21, 4);
+    return ImageSize{(sides & 0x3FFF) + 1, (sides >> 14 & 0x3FFF) + 1};
+  }
+  if (bytes.size() >= 30 && starts_with(bytes, "VP8 ", 12) && starts_with(bytes, "\x9D\x01\x2A", 23))
+    return ImageSize{little_endian(bytes, 26, 2) & 0x3FFF, little_endian(bytes, 28, 2) & 0x3FFF};
+  return invalid(name, "found a corrupt WebP: {} bytes without the header of an image", bytes.size());
+}
+
 // What else artists put there.
 const char* foreign_format(std::span<const std::byte> bytes) {
-  if (starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8)) return "WebP";
   if (starts_with(bytes, "\xABKTX 20\xBB")) return "KTX2";
   if (starts_with(bytes, "\xABKTX 11\xBB")) return "KTX";
   if (starts_with(bytes, "DDS ")) return "DDS";
@@ -89,6 +111,30 @@ Status check_size(const OIIO::ImageSpec& spec, const std::string& name) {
   return {};
 }
 
+// OpenImageIO multiplies WebP's alpha in. Texels without any have the colour of those beside them, so that edges of
+// cut-outs do not darken between texels.
+void divide_alpha(Image& image) {
+  std::vector<std::uint8_t>& texels = image.texels;
+  for (std::size_t i = 0; i < texels.size(); i += 4)
+    for (std::size_t c = 0; c < 3 && texels[i + 3] > 0; ++c)
+      texels[i + c] =
+          static_cast<std::uint8_t>(std::min(255, (texels[i + c] * 255 + texels[i + 3] / 2) / texels[i + 3]));
+  const auto at = [&](std::uint32_t x, std::uint32_t y) { return 4 * (std::size_t{y} * image.width + x); };
+  for (std::uint32_t y = 0; y < image.height; ++y)
+    for (std::uint32_t x = 0; x < image.width; ++x) {
+      if (texels[at(x, y) + 3] > 0) continue;
+      std::array<int, 3> sum{};
+      int count = 0;
+      for (std::uint32_t v = y - std::min(y, 1u); v <= std::min(y + 1, image.height - 1); ++v)
+        for (std::uint32_t u = x - std::min(x, 1u); u <= std::min(x + 1, image.width - 1); ++u) {
+          if (texels[at(u, v) + 3] == 0) continue;
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += texels[at(u, v) + c];
+          ++count;
+        }
+      for (std::size_t c = 0; c < 3 && count > 0; ++c) texels[at(x, y) + c] = static_cast<std::uint8_t>(sum[c] / count);
+    }
+}
+
 // An open reader and what it reads from.
 struct Reader {
   explicit Reader(Bytes&& source) : bytes(std::move(source)), memory(bytes.data(), bytes.size()) {}
@@ -99,9 +145,10 @@ struct Reader {
 };
 
 Result<std::unique_ptr<Reader>> open(std::span<const std::byte> bytes, const std::string& name) {
-  const bool png = starts_with(bytes, "\x89PNG\r\n\x1A\n");
-  if (!png && !starts_with(bytes, "\xFF\xD8\xFF"))
-    return invalid(name, "found {}, expected PNG or JPEG", bytes.empty() ? "no data" : foreign_format(bytes));
+  const bool png = starts_with(bytes, "\x89PNG\r\n\x1A\n"), webp = is_webp(bytes);
+  if (!png && !webp && !starts_with(bytes, "\xFF\xD8\xFF"))
+    return invalid(name, "found {}, expected PNG, JPEG or WebP", bytes.empty() ? "no data" : foreign_format(bytes));
+  const std::string format = png ? "PNG" : webp ? "WebP" : "JPEG", plugin = png ? "png" : webp ? "webp" : "jpeg";
   Bytes source;
   if (png) {
     ORIEL_TRY(source, essential_png(bytes, name));
@@ -113,11 +160,11 @@ Result<std::unique_ptr<Reader>> open(std::span<const std::byte> bytes, const std
   OIIO::Filesystem::IOProxy* proxy = &reader->memory;
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   config.attribute("oiio:UnassociatedAlpha", 1);
-  reader->input = OIIO::ImageInput::create(png ? "png" : "jpeg");
-  if (!reader->input) return fail(ErrorCode::kRuntime, name, "OpenImageIO has no reader for {}", png ? "PNG" : "JPEG");
+  reader->input = OIIO::ImageInput::create(plugin);
+  if (!reader->input) return fail(ErrorCode::kRuntime, name, "OpenImageIO has no reader for {}", format);
   const OIIO::ImageSpec& spec = reader->spec;
-  if (!reader->input->open(png ? "memory.png" : "memory.jpg", reader->spec, config))
-    return invalid(name, "found a corrupt {}: {}", png ? "PNG" : "JPEG", reader->input->geterror());
+  if (!reader->input->open("memory." + plugin, reader->spec, config))
+    return invalid(name, "found a corrupt {}: {}", format, reader->input->geterror());
   ORIEL_TRY_VOID(check_size(spec, name));
   if (spec.nchannels < 1 || spec.nchannels > 4)
     return invalid(name, "found {} channels, expected 1 to 4", spec.nchannels);
@@ -160,6 +207,7 @@ auto guarded(const std::string& name, const Work& work) -> decltype(work()) {
 }  // namespace
 
 Result<ImageSize> image_size(std::span<const std::byte> bytes, const std::string& name) {
+  if (is_webp(bytes)) return webp_size(bytes, name);
   return guarded(name, [&]() -> Result<ImageSize> {
     ORIEL_TRY(const std::unique_ptr<Reader> reader, open(bytes, name));
     return ImageSize{static_cast<std::uint32_t>(reader->spec.width), static_cast<std::uint32_t>(reader->spec.height)};
@@ -177,6 +225,7 @@ Result<Image> decode_image(std::span<const std::byte> bytes, const std::string& 
     if (!reader->input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, image.texels.data()))
       return invalid(name, "found a corrupt image: {}", reader->input->geterror());
     spread(image.texels, count, channels);
+    if (is_webp(bytes) && channels == 4) divide_alpha(image);
     return image;
   });
 }

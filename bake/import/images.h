@@ -1,4 +1,4 @@
-// PNG and JPEG into RGBA8, Radiance and OpenEXR skies into floats. The only door to OpenImageIO.
+// PNG, JPEG and WebP into RGBA8, Radiance and OpenEXR skies into floats. The only door to OpenImageIO.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,8 @@ struct ImageSize {
 // From the header alone. Errors as decode_image.
 Result<ImageSize> image_size(std::span<const std::byte> bytes, const std::string& name);
 
-// Told by the first bytes, not by any name. Alpha is not multiplied in; 16-bit images are rounded to 8. Error kInvalid
+// Told by the first bytes, not by any name. Alpha is not multiplied in; 16-bit images are rounded to 8, of moving ones
+// the first is taken. Error kInvalid
 // for other formats (named where known), broken data, and sides beyond kMaxImageSize. May run in several threads at
 // once.
 Result<Image> decode_image(std::span<const std::byte> bytes, const std::string& name);

@@ -26,8 +26,14 @@ Result<std::vector<std::uint32_t>> find_roots(const gltf::Document& document, in
   const int count = static_cast<int>(document.scenes.size());
   if (wanted >= count)
     return fail(ErrorCode::kUsage, document.file, "scene {} was asked for, the file has {}", wanted, count);
-  if (count > 0)
-    return document.scenes[static_cast<std::size_t>(wanted >= 0 ? wanted : std::max(0, document.default_scene))].nodes;
+  if (count > 0) {
+    const int taken = wanted >= 0 ? wanted : std::max(0, document.default_scene);
+    const gltf::SceneDesc& scene = document.scenes[static_cast<std::size_t>(taken)];
+    if (count > 1 && wanted < 0)
+      context.warning(fmt::format("the file has {} scenes: number {}{} is taken, --scene takes another", count, taken,
+                                  scene.name.empty() ? "" : fmt::format(", \"{}\",", scene.name)));
+    return scene.nodes;
+  }
   std::vector<std::uint32_t> roots;
   for (std::uint32_t i = 0; i < document.nodes.size(); ++i)
     if (document.nodes[i].parent < 0) roots.push_back(i);

@@ -24,15 +24,21 @@ struct Attribute {
 
 // What glTF 2.0 §3.7.2.1 allows, widened by KHR_mesh_quantization.
 Status check_type(const AccessorDesc& a, const std::string& name, bool quantized, const std::string& where) {
-  const std::uint32_t least = name.starts_with("TEXCOORD") ? 2 : name == "TANGENT" ? 4 : 3;
+  const bool joints = name.starts_with("JOINTS"), weights = name.starts_with("WEIGHTS");
+  const std::uint32_t least = name.starts_with("TEXCOORD") ? 2 : name == "TANGENT" || joints || weights ? 4 : 3;
   const std::uint32_t most = name == "COLOR_0" ? 4 : least;
   if (a.matrix || a.components < least || a.components > most)
     return invalid(where, "found {} components, expected {}", a.components,
                    most == least ? fmt::format("{}", least) : fmt::format("{} or {}", least, most));
   const bool is_float = a.type == ComponentType::kFloat;
   const bool unit = a.normalized && (a.type == ComponentType::kUnsignedByte || a.type == ComponentType::kUnsignedShort);
-  if (is_float || (least == 2 && unit) || (name == "COLOR_0" && unit)) return {};
-  if (quantized && name != "COLOR_0" && a.type != ComponentType::kUnsignedInt) return {};
+  const bool index =
+      !a.normalized && (a.type == ComponentType::kUnsignedByte || a.type == ComponentType::kUnsignedShort);
+  if (joints)
+    return index ? Status{}
+                 : invalid(where, "found component type {}, expected 5121 or 5123", static_cast<int>(a.type));
+  if (is_float || ((least == 2 || weights || name == "COLOR_0") && unit)) return {};
+  if (quantized && !weights && name != "COLOR_0" && a.type != ComponentType::kUnsignedInt) return {};
   return invalid(where, "found component type {}{}, expected 5126 (float){}", static_cast<int>(a.type),
                  a.normalized ? " normalized" : "", quantized ? "" : ": other types need KHR_mesh_quantization");
 }
@@ -84,7 +90,7 @@ class PrimitiveLoader {
     ORIEL_TRY(const std::vector<std::uint32_t> indices, read_indices());
     ORIEL_TRY_VOID(budget_.take(indices.size() * 3 * sizeof(UVec3), where_));
     std::vector<UVec3> triangles = list_of(indices, drops);
-    drop_bad(position.values, triangles, drops);
+    if (desc_.targets.empty()) drop_bad(position.values, triangles, drops);  // else what they are is known later
     const std::vector<std::uint32_t> used = compact(triangles);
     mesh.triangles = std::move(triangles);
     ORIEL_TRY_VOID(budget_.take(used.size() * 48, where_));
@@ -102,6 +108,8 @@ class PrimitiveLoader {
     gather(uv1, used, mesh.uv1);
     ORIEL_TRY(const Attribute color, attribute("COLOR_0"));
     gather_colors(color, used, mesh.colors);
+    ORIEL_TRY_VOID(load_targets(used, mesh));
+    if (desc_.skinned) ORIEL_TRY_VOID(load_influences(used, mesh));
     return mesh;
   }
 
@@ -113,34 +121,88 @@ class PrimitiveLoader {
   }
   Status decompress() {
     std::map<std::string, DracoRequest> requests;
-    for (const char* name : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
-      const auto id = desc_.draco->attributes.find(name);
+    for (const auto& [name, id] : desc_.draco->attributes) {
+      if (!is_read(name)) continue;
       const auto accessor = desc_.attributes.find(name);
-      if (id == desc_.draco->attributes.end()) continue;
       if (accessor == desc_.attributes.end())
         return invalid(where_, "Draco holds {}, expected an accessor for it", name);
       const AccessorDesc& a = accessors_.desc(accessor->second);
-      requests[name] = {id->second, a.components, a.normalized};
+      requests[name] = {id, a.components, a.normalized};
     }
     ORIEL_TRY(draco_, decode_draco(buffers_.view(desc_.draco->view), requests, where_));
     return {};
   }
 
-  Result<Attribute> attribute(const std::string& name) {
-    const auto found = desc_.attributes.find(name);
-    if (found == desc_.attributes.end()) return Attribute{};
-    const std::string where = where_ + ".attributes." + name;
+  bool is_read(const std::string& name) const {
+    if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) return desc_.skinned;
+    constexpr std::array kNames = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+    return std::ranges::find(kNames, name) != kNames.end();
+  }
+
+  // Of each target that a node gives a weight.
+  Status load_targets(const std::vector<std::uint32_t>& used, TriangleMesh& mesh) {
+    mesh.targets.resize(desc_.targets.size());
+    for (std::size_t i = 0; i < desc_.targets.size(); ++i) {
+      if (!desc_.targets[i].used) continue;
+      ORIEL_TRY_VOID(budget_.take(used.size() * 2 * sizeof(Vec3), where_));
+      const std::string where = fmt::format("{}.targets[{}]", where_, i);
+      ORIEL_TRY(const Attribute position, plain(desc_.targets[i].attributes, "POSITION", where));
+      gather(position, used, mesh.targets[i].positions);
+      ORIEL_TRY(const Attribute normal, plain(desc_.targets[i].attributes, "NORMAL", where));
+      gather(normal, used, mesh.targets[i].normals);
+    }
+    return {};
+  }
+
+  // All sets of four, with a sum of 1.
+  Status load_influences(const std::vector<std::uint32_t>& used, TriangleMesh& mesh) {
+    std::vector<Attribute> joints, weights;
+    for (int set = 0; desc_.attributes.contains(fmt::format("JOINTS_{}", set)); ++set) {
+      ORIEL_TRY(joints.emplace_back(), attribute(fmt::format("JOINTS_{}", set)));
+      ORIEL_TRY(weights.emplace_back(), attribute(fmt::format("WEIGHTS_{}", set)));
+      if (weights.back().components == 0)
+        return invalid(where_, "found JOINTS_{0} without WEIGHTS_{0}, expected both", set);
+    }
+    ORIEL_TRY_VOID(budget_.take(used.size() * joints.size() * 4 * sizeof(Influence), where_));
+    for (const std::uint32_t vertex : used) {
+      float sum = 0;
+      const std::size_t first = mesh.influences.size();
+      for (std::size_t set = 0; set < joints.size(); ++set)
+        for (std::size_t k = 4 * std::size_t{vertex}; k < 4 * std::size_t{vertex} + 4; ++k) {
+          const float weight = std::fmax(weights[set].values[k], 0.0f);
+          const float joint = std::fmin(std::fmax(joints[set].values[k], 0.0f), 65535.0f);  // Draco's are anything
+          mesh.influences.push_back({static_cast<std::uint32_t>(joint), weight});
+          sum += weight;
+        }
+      for (std::size_t k = first; k < mesh.influences.size(); ++k)
+        mesh.influences[k].weight = sum > 0 ? mesh.influences[k].weight / sum : k == first ? 1.0f : 0.0f;
+    }
+    return {};
+  }
+
+  // What an accessor holds, in the order of the file.
+  Result<Attribute> plain(const std::map<std::string, int>& attributes, const std::string& name,
+                          const std::string& owner) {
+    const auto found = attributes.find(name);
+    if (found == attributes.end()) return Attribute{};
+    const std::string where = owner + "." + name;
     const AccessorDesc& a = accessors_.desc(found->second);
     ORIEL_TRY_VOID(check_type(a, name, document_.quantized, where));
     if (count_ && a.count != *count_)
       return invalid(where, "found {} elements, expected {} as POSITION has", a.count, *count_);
-    if (const auto draco = draco_.attributes.find(name); draco != draco_.attributes.end()) {
-      if (a.count != draco_.vertex_count)
-        return invalid(where, "found {} elements, expected Draco's {} vertices", a.count, draco_.vertex_count);
-      return Attribute{draco->second, a.components};
-    }
     ORIEL_TRY(const std::span<const float> values, accessors_.floats(found->second));
     return Attribute{values, a.components};
+  }
+
+  Result<Attribute> attribute(const std::string& name) {
+    const auto draco = draco_.attributes.find(name);
+    if (draco == draco_.attributes.end()) return plain(desc_.attributes, name, where_ + ".attributes");
+    const std::string where = where_ + ".attributes." + name;
+    const AccessorDesc& a = accessors_.desc(desc_.attributes.at(name));
+    ORIEL_TRY_VOID(check_type(a, name, document_.quantized, where));
+    if (a.count != draco_.vertex_count)
+      return invalid(where, "found {} elements, expected Draco's {} vertices", a.count, draco_.vertex_count);
+    return Attribute{draco->second, a.components};
   }
 
   Result<std::vector<std::uint32_t>> read_indices() {

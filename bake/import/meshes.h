@@ -6,6 +6,17 @@
 
 namespace oriel::gltf {
 
+// What a morph target adds, by vertex; empty: nothing.
+struct MorphTarget {
+  std::vector<Vec3> positions, normals;
+};
+
+// How much of a vertex a joint of the skin moves.
+struct Influence {
+  std::uint32_t joint = 0;
+  float weight = 0;
+};
+
 // Only vertices that a triangle uses. All vertex arrays that are not empty have the length of positions.
 struct TriangleMesh {
   std::string path;  // "meshes[0].primitives[1]"
@@ -15,7 +26,9 @@ struct TriangleMesh {
   std::vector<Vec2> uv0, uv1;         // within ±1e9; empty: none
   std::vector<Vec4> tangents;         // as stored, with normals only; empty: none, or no normal map wants them
   std::vector<std::uint32_t> colors;  // RGBA8 linear, R lowest; empty: none
-  std::vector<UVec3> triangles;       // counter-clockwise; never degenerate, no exact duplicates
+  std::vector<UVec3> triangles;       // counter-clockwise; without targets never degenerate, no exact duplicates
+  std::vector<MorphTarget> targets;   // those that no node gives a weight are empty
+  std::vector<Influence> influences;  // vertex by vertex, as many of each; empty: no skin
 };
 
 struct LoadedMesh {

@@ -169,7 +169,7 @@ Scene object_scene(const Scene& scene, std::size_t mover) {
 }  // namespace
 
 Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::string> names, Context& context) {
-  const auto& [document, poses, none] = posed;
+  const auto& [document, poses, none, numbers] = posed;
   ORIEL_TRY(const std::vector<char> marks, mark(document, poses, names));
   MoverNodes movers;
   movers.of_node.assign(document.nodes.size(), -1);
@@ -197,7 +197,7 @@ Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::str
 }
 
 Status place_movers(const PosedNodes& nodes, std::span<const Animation> animations, Scene& scene, Context& context) {
-  const auto& [document, poses, movers] = nodes;
+  const auto& [document, poses, movers, numbers] = nodes;
   scene.movers.resize(movers.nodes.size());
   for (const NodePose& pose : poses) {
     const std::int32_t mover = movers.of_node[pose.node];

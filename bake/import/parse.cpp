@@ -3,19 +3,10 @@
 #include <set>
 
 #include "bake/import/document.h"
+#include "bake/import/extensions.h"
 
 namespace oriel::gltf {
 namespace {
-
-const std::set<std::string>& known_extensions() {
-  static const std::set<std::string> names{
-      "KHR_mesh_quantization",      "KHR_draco_mesh_compression",      "EXT_meshopt_compression",
-      "EXT_mesh_gpu_instancing",    "KHR_texture_transform",           "KHR_lights_punctual",
-      "KHR_materials_ior",          "KHR_materials_specular",          "KHR_materials_unlit",
-      "KHR_materials_transmission", "KHR_materials_emissive_strength", "KHR_materials_clearcoat",
-      "KHR_materials_volume",       "KHR_materials_anisotropy"};
-  return names;
-}
 
 // "2.0" as {2, 0}; an error where it is something else.
 std::array<int, 2> version(const Json& value, std::array<int, 2> fallback) {
@@ -43,18 +34,26 @@ void parse_asset(const Json& root) {
 
 void parse_extensions(const Json& root, Document& document) {
   const Json required = root["extensionsRequired"], used = root["extensionsUsed"];
-  std::set<std::string> warned;
+  std::set<std::string> told;
+  const auto tell = [&](const std::string& name, const Extension& extension) {
+    if ((extension.support != Support::kWithout && extension.support != Support::kNone) || !told.insert(name).second)
+      return;
+    document.warnings.push_back(fmt::format("extension {} is not supported and is left out{}{}", name,
+                                            *extension.advice ? ": " : "", extension.advice));
+  };
   for (std::size_t i = 0; i < used.size(); ++i) {
     const std::string name = used.at(i).text();
     if (name == "KHR_mesh_quantization") document.quantized = true;
-    if (!known_extensions().contains(name) && warned.insert(name).second)
-      document.warnings.push_back(fmt::format("extension {} is not supported and is left out", name));
+    tell(name, extension_named(name));
   }
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string name = required.at(i).text();
     if (name == "KHR_mesh_quantization") document.quantized = true;
-    if (!known_extensions().contains(name))
-      required.at(i).error(fmt::format("found the required extension \"{}\", expected one that is supported", name));
+    const Extension extension = extension_named(name);
+    if (extension.support == Support::kNone || extension.support == Support::kOtherImages)
+      required.at(i).error(fmt::format("found the required extension \"{}\", expected one that is supported: {}", name,
+                                       *extension.advice ? extension.advice : "export the scene without it"));
+    tell(name, extension);
   }
 }
 

@@ -2,8 +2,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "bake/import/document.h"
+#include "bake/import/extensions.h"
 
 namespace oriel::gltf {
 namespace {
@@ -69,6 +71,7 @@ class MaterialParser {
     parse_emission(value, m);
     parse_alpha(value, m);
     parse_dielectric(value, m);
+    parse_glossiness(value, m);
     parse_coat(value, m);
     parse_anisotropy(value, m);
     m.metal = parse_metal(value);
@@ -77,6 +80,8 @@ class MaterialParser {
     const Json normal = value["normalTexture"];
     m.normal_texture = slot(normal);
     m.normal_scale = static_cast<float>(std::fmin(std::fmax(normal["scale"].number(1), -kMaxScale), kMaxScale));
+    for (const std::string& name : value["extensions"].keys())
+      if (extension_named(name).support == Support::kByMaterial) left_out_[name].push_back(m.name);
     // Read for its mistakes only.
     if (slot(value["occlusionTexture"]).image >= 0) ++occlusion_maps_;
     return m;
@@ -86,14 +91,35 @@ class MaterialParser {
     if (occlusion_maps_ > 0)
       document_.warnings.push_back(
           fmt::format("occlusion maps of {} materials are left out: the bake finds occlusion itself", occlusion_maps_));
+    for (const auto& [name, materials] : left_out_)
+      document_.warnings.push_back(fmt::format(
+          "{} of {} is not supported and is left out: {}", name,
+          materials.size() == 1 ? fmt::format("material \"{}\"", materials.front())
+                                : fmt::format("{} materials, \"{}\" among them,", materials.size(), materials.front()),
+          extension_named(name).advice));
+    for (const auto& [name, count] : replaced_)
+      document_.warnings.push_back(
+          fmt::format("{} of {} textures is not supported: the PNG or JPEG beside it is shown", name, count));
+    for (const auto& [name, count] : unread_)
+      document_.warnings.push_back(
+          fmt::format("{} of {} textures is not supported, they have no other image and are left out: {}", name, count,
+                      extension_named(name).advice));
   }
 
  private:
   TextureDesc parse_texture(const Json& value) {
     TextureDesc texture;
-    texture.image = value["source"].index(document_.images.size());
+    const Json webp = value.extension("EXT_texture_webp")["source"];
+    const Json source = webp.present() ? webp : value["source"];
+    texture.image = source.index(document_.images.size());
     texture.sampler = value["sampler"].index(samplers_.size());
-    if (!value["source"].present()) warn(value, "has no PNG or JPEG source and is left out");
+    bool told = source.present();
+    for (const std::string& name : value["extensions"].keys()) {
+      if (extension_named(name).support != Support::kOtherImages || webp.present()) continue;
+      ++(source.present() ? replaced_ : unread_)[name];
+      told = true;
+    }
+    if (!told) warn(value, "has no image that can be read and is left out");
     return texture;
   }
 
@@ -206,6 +232,28 @@ class MaterialParser {
     parse_volume(value, m);
   }
 
+  // What older exporters write instead of metalness: the colour of reflections as such, with Schlick's curve, which is
+  // that of an index of 0.
+  void parse_glossiness(const Json& value, SceneMaterial& m) {
+    const Json old = value.extension("KHR_materials_pbrSpecularGlossiness");
+    if (!old.present()) return;
+    std::array<double, 4> diffuse{1, 1, 1, 1};
+    std::array<double, 3> specular{1, 1, 1};
+    old["diffuseFactor"].numbers(diffuse);
+    old["specularFactor"].numbers(specular);
+    for (int i = 0; i < 3; ++i) {
+      m.base_color[i] = unit(old["diffuseFactor"], diffuse[static_cast<std::size_t>(i)]);
+      m.specular_color[i] = unit(old["specularFactor"], specular[static_cast<std::size_t>(i)]);
+    }
+    m.alpha = unit(old["diffuseFactor"], diffuse[3]);
+    m.base_color_texture = slot(old["diffuseTexture"]);
+    m.specular_color_texture = m.gloss_texture = slot(old["specularGlossinessTexture"]);
+    m.roughness = 1 - unit(old["glossinessFactor"], old["glossinessFactor"].number(1));
+    m.metallic = m.ior = 0;
+    m.specular = 1;
+    m.metallic_roughness_texture = m.specular_texture = {};
+  }
+
   // Whether its surfaces are closed is found once they are placed (solids.h). The thickness itself is for those who
   // cannot follow light through the mesh.
   void parse_volume(const Json& value, SceneMaterial& m) {
@@ -252,6 +300,8 @@ class MaterialParser {
   Document& document_;
   std::vector<SamplerDesc> samplers_;
   std::vector<TextureDesc> textures_;
+  std::map<std::string, std::vector<std::string>> left_out_;  // extension → materials
+  std::map<std::string, int> replaced_, unread_;              // extension → textures
   int occlusion_maps_ = 0;
 };
 

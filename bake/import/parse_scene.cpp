@@ -1,4 +1,5 @@
 // Meshes, nodes, scenes, cameras, lights and animations.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -25,7 +26,35 @@ PrimitiveDesc parse_primitive(const Json& value, std::size_t materials, const Do
       p.draco->attributes[name] = static_cast<std::uint32_t>(ids[name.c_str()].integer(0, ~0u));
     if (p.mode != 4 && p.mode != 5) value["mode"].expected("4 or 5 with KHR_draco_mesh_compression");
   }
+  const Json targets = value["targets"];
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    TargetDesc& target = p.targets.emplace_back();
+    for (const std::string& name : targets.at(i).keys())
+      target.attributes[name] = targets.at(i)[name.c_str()].index(document.accessors.size());
+  }
   return p;
+}
+
+std::vector<double> parse_weights(const Json& value) {
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < value.size(); ++i) weights.push_back(value.at(i).number(0, -1e6, 1e6));
+  return weights;
+}
+
+SkinDesc parse_skin(const Json& value, std::size_t nodes, const Document& document) {
+  SkinDesc skin;
+  const Json joints = value.need("joints");
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (const int joint = joints.at(i).index(nodes); joint >= 0)
+      skin.joints.push_back(static_cast<std::uint32_t>(joint));
+  if (joints.present() && joints.size() == 0) joints.expected("at least one joint");
+  skin.inverse_bind = value["inverseBindMatrices"].index(document.accessors.size());
+  if (skin.inverse_bind < 0) return skin;
+  const AccessorDesc& matrices = document.accessors[static_cast<std::size_t>(skin.inverse_bind)];
+  if (matrices.components != 16 || matrices.type != ComponentType::kFloat || matrices.count < joints.size())
+    value["inverseBindMatrices"].error(
+        fmt::format("found accessor {}, expected one of {} MAT4 of floats", skin.inverse_bind, joints.size()));
+  return skin;
 }
 
 // A matrix that puts something somewhere: affine, and no axis of no length.
@@ -75,12 +104,13 @@ float angular_radius(const Json& value, double fallback) {
                             360);
 }
 
-NodeDesc parse_node(const Json& value, std::size_t count, std::size_t skins, const Document& document) {
+NodeDesc parse_node(const Json& value, std::size_t count, const Document& document) {
   NodeDesc node;
   node.name = value["name"].name();
   node.mesh = value["mesh"].index(document.meshes.size());
   node.camera = value["camera"].index(document.cameras.size());
-  value["skin"].index(skins);
+  node.skin = value["skin"].index(document.skins.size());
+  node.weights = parse_weights(value["weights"]);
   node.light = value.extension("KHR_lights_punctual")["light"].index(document.lights.size());
   node.angular_radius_rad = angular_radius(value, -1);
   node.metal = parse_metal(value);
@@ -235,34 +265,55 @@ void parse_scenes(const Json& root, Document& document) {
   document.default_scene = root["scene"].index(document.scenes.size());
 }
 
+// Which morph targets and joints the meshes need, and whether something moves them.
+void note_deformations(Document& document) {
+  std::vector<char> is_joint(document.nodes.size());
+  for (const NodeDesc& node : document.nodes) {
+    if (node.mesh < 0) continue;
+    MeshDesc& mesh = document.meshes[static_cast<std::size_t>(node.mesh)];
+    const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
+    for (PrimitiveDesc& p : mesh.primitives) {
+      p.skinned |= node.skin >= 0;
+      for (std::size_t i = 0; i < std::min(p.targets.size(), weights.size()); ++i) p.targets[i].used |= weights[i] != 0;
+    }
+    if (node.skin < 0) continue;
+    for (const std::uint32_t joint : document.skins[static_cast<std::size_t>(node.skin)].joints) is_joint[joint] = 1;
+  }
+  const bool moves = std::ranges::any_of(document.animations, [&](const AnimationDesc& animation) {
+    return std::ranges::any_of(animation.channels, [&](const AnimationDesc::Channel& channel) {
+      return channel.target == "weights" || (channel.node >= 0 && is_joint[static_cast<std::size_t>(channel.node)]);
+    });
+  });
+  if (moves)
+    document.warnings.push_back(
+        "animations of skins and of morph targets are left out: meshes stand as their joints and weights do at rest");
+}
+
 }  // namespace
 
 void parse_meshes(const Json& root, std::size_t materials, Document& document) {
   const Json meshes = root["meshes"];
-  bool morphs = false;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     MeshDesc mesh;
     mesh.name = meshes.at(i)["name"].name();
     const Json primitives = meshes.at(i).need("primitives");
-    for (std::size_t k = 0; k < primitives.size(); ++k) {
+    for (std::size_t k = 0; k < primitives.size(); ++k)
       mesh.primitives.push_back(parse_primitive(primitives.at(k), materials, document));
-      morphs |= primitives.at(k)["targets"].size() > 0;
-    }
+    mesh.weights = parse_weights(meshes.at(i)["weights"]);
     document.meshes.push_back(std::move(mesh));
   }
-  if (morphs) document.warnings.push_back("morph targets are left out: meshes stand in their base shape");
 }
 
 void parse_nodes(const Json& root, Document& document) {
   const Json cameras = root["cameras"], lights = root.extension("KHR_lights_punctual")["lights"], nodes = root["nodes"];
   for (std::size_t i = 0; i < cameras.size(); ++i) document.cameras.push_back(parse_camera(cameras.at(i), i));
   for (std::size_t i = 0; i < lights.size(); ++i) document.lights.push_back(parse_light(lights.at(i), i, document));
-  const std::size_t skins = root["skins"].size();
-  bool skinned = false;
+  const Json skins = root["skins"];
+  for (std::size_t i = 0; i < skins.size(); ++i)
+    document.skins.push_back(parse_skin(skins.at(i), nodes.size(), document));
   std::size_t sheared = 0, last_sheared = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    document.nodes.push_back(parse_node(nodes.at(i), nodes.size(), skins, document));
-    skinned |= nodes.at(i)["skin"].present();
+    document.nodes.push_back(parse_node(nodes.at(i), nodes.size(), document));
     if (document.nodes.back().has_matrix && places(document.nodes.back().matrix) &&
         shears(document.nodes.back().matrix))
       ++sheared, last_sheared = i;
@@ -272,13 +323,13 @@ void parse_nodes(const Json& root, Document& document) {
         fmt::format("{}: {} matrices shear, which glTF does not allow, that of nodes[{}] among "
                     "them; they are taken as they stand",
                     document.file, sheared, last_sheared));
-  if (skinned) document.warnings.push_back("skins are left out: meshes stand in their bind pose");
   check_tree(nodes, document);
   if (!root.document().status()) return;
   parse_scenes(root, document);
   const Json animations = root["animations"];
   for (std::size_t i = 0; i < animations.size(); ++i)
     document.animations.push_back(parse_animation(animations.at(i), document));
+  note_deformations(document);
 }
 
 }  // namespace oriel::gltf

@@ -1,10 +1,12 @@
 #include "bake/import/place.h"
 
 #include <algorithm>
+#include <deque>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "bake/import/deform.h"
 #include "bake/import/node_names.h"
 #include "bake/import/warning_group.h"
 
@@ -20,6 +22,7 @@ constexpr double kWarnShare = 0.01;                           // of corners with
 
 struct Instance {
   std::uint32_t node = 0;
+  const LoadedMesh* mesh = nullptr;
   DMat4 world_from_mesh{1};
 };
 
@@ -72,20 +75,27 @@ Result<std::vector<DMat4>> instance_matrices(const Document& document, std::uint
   return matrices;
 }
 
+// `shapes` keeps the meshes that stand in a shape of their own.
 Result<std::vector<Instance>> find_instances(const PosedNodes& nodes, std::span<const LoadedMesh> meshes,
-                                             gltf::AccessorReader& accessors) {
+                                             gltf::AccessorReader& accessors, std::deque<RestShape>& shapes) {
   const Document& document = nodes.document;
   std::vector<Instance> instances;
   for (const NodePose& pose : nodes.poses) {
     const gltf::NodeDesc& node = document.nodes[pose.node];
     if (node.mesh < 0 || meshes[static_cast<std::size_t>(node.mesh)].primitives.empty()) continue;
+    Instance plain{pose.node, &meshes[static_cast<std::size_t>(node.mesh)], pose.world_from_node};
+    ORIEL_TRY(std::optional<RestShape> shape, rest_shape(nodes, pose, *plain.mesh, accessors));
+    if (shape) {
+      plain.mesh = &shapes.emplace_back(std::move(*shape)).mesh;
+      plain.world_from_mesh = shapes.back().world_from_mesh;
+    }
     if (!node.instanced) {
-      instances.push_back({pose.node, pose.world_from_node});
+      instances.push_back(plain);
       continue;
     }
     ORIEL_TRY(const std::vector<DMat4> matrices, instance_matrices(document, pose.node, accessors));
     for (const DMat4& node_from_instance : matrices) {
-      instances.push_back({pose.node, pose.world_from_node * node_from_instance});
+      instances.push_back({pose.node, plain.mesh, plain.world_from_mesh * node_from_instance});
       if (!finite(instances.back().world_from_mesh))
         return invalid(node_path(document, pose.node),
                        "found an instance's transform that overflows, expected a finite one");
@@ -215,11 +225,10 @@ class Placer {
 };
 
 // The centre of the world bounds; also refuses what would overflow.
-Result<DVec3> find_origin(const Document& document, std::span<const LoadedMesh> meshes,
-                          std::span<const Instance> instances) {
+Result<DVec3> find_origin(const Document& document, std::span<const Instance> instances) {
   DVec3 lower(std::numeric_limits<double>::max()), upper(-lower);
   for (const Instance& instance : instances)
-    for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives)
+    for (const TriangleMesh& mesh : instance.mesh->primitives)
       for (const Vec3& p : mesh.positions) {
         const DVec3 world(instance.world_from_mesh * DVec4(DVec3(p), 1));
         lower = glm::min(lower, world);
@@ -234,11 +243,11 @@ Result<DVec3> find_origin(const Document& document, std::span<const LoadedMesh> 
   return lower + 0.5 * size;
 }
 
-Status reserve(const Document& document, std::span<const LoadedMesh> meshes, std::span<const Instance> instances,
-               gltf::MemoryBudget& budget, Scene& scene) {
+Status reserve(const Document& document, std::span<const Instance> instances, gltf::MemoryBudget& budget,
+               Scene& scene) {
   std::uint64_t triangles = 0, vertices = 0, vertex_bytes = 44;
   for (const Instance& instance : instances)
-    for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives) {
+    for (const TriangleMesh& mesh : instance.mesh->primitives) {
       triangles += mesh.triangles.size();
       vertices += mesh.normals.empty() ? 3 * mesh.triangles.size() : mesh.positions.size();
       if (!mesh.tangents.empty()) vertex_bytes = 44 + sizeof(Vec4);
@@ -286,6 +295,7 @@ std::uint32_t of_metal(std::uint32_t material, Metal metal,
 
 Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uint32_t> roots) {
   PosedNodes nodes{document, {}};
+  nodes.pose_of.assign(document.nodes.size(), -1);
   std::vector<NodePose> waiting;
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.push_back({*root, DMat4(1)});
   while (!waiting.empty()) {
@@ -297,6 +307,7 @@ Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uin
       return invalid(node_path(document, pose.node), "found a world transform that overflows, expected a finite one");
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       waiting.push_back({*child, pose.world_from_node});
+    nodes.pose_of[pose.node] = static_cast<std::int32_t>(nodes.poses.size());
     nodes.poses.push_back(pose);
   }
   return nodes;
@@ -305,12 +316,13 @@ Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uin
 Status place_meshes(const PosedNodes& nodes, std::span<const LoadedMesh> meshes, gltf::AccessorReader& accessors,
                     Scene& scene, Context& context) {
   const Document& document = nodes.document;
-  ORIEL_TRY(const std::vector<Instance> instances, find_instances(nodes, meshes, accessors));
-  ORIEL_TRY_VOID(reserve(document, meshes, instances, accessors.budget(), scene));
-  ORIEL_TRY(scene.origin, find_origin(document, meshes, instances));
+  std::deque<RestShape> shapes;
+  ORIEL_TRY(const std::vector<Instance> instances, find_instances(nodes, meshes, accessors, shapes));
+  ORIEL_TRY_VOID(reserve(document, instances, accessors.budget(), scene));
+  ORIEL_TRY(scene.origin, find_origin(document, instances));
   bool with_colors = false, with_tangents = false;
   for (const Instance& instance : instances)
-    for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives)
+    for (const TriangleMesh& mesh : instance.mesh->primitives)
       with_colors |= !mesh.colors.empty(), with_tangents |= !mesh.tangents.empty();
   Placer placer(scene, context, with_colors, with_tangents);
   const gltf::NodeNames names(document);
@@ -319,7 +331,7 @@ Status place_meshes(const PosedNodes& nodes, std::span<const LoadedMesh> meshes,
   for (const Instance& instance : instances) {
     if (context.stopped()) return fail(ErrorCode::kStopped, document.file, "stopped");
     const gltf::NodeDesc& node = document.nodes[instance.node];
-    const LoadedMesh& mesh = meshes[static_cast<std::size_t>(node.mesh)];
+    const LoadedMesh& mesh = *instance.mesh;
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       Surface surface;
       surface.name = !node.name.empty() ? node.name : fmt::format("{}/{}", mesh.name, i);

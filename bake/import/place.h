@@ -20,8 +20,9 @@ struct MoverNodes {
 
 struct PosedNodes {
   const gltf::Document& document;
-  std::vector<NodePose> poses;  // parents before children, in the document's order
-  MoverNodes movers = {};       // find_movers()
+  std::vector<NodePose> poses;             // parents before children, in the document's order
+  MoverNodes movers = {};                  // find_movers()
+  std::vector<std::int32_t> pose_of = {};  // by node of the document: its pose; -1: it is not in the scene
 };
 
 // Every node under the roots. Error kInvalid where a transform overflows.

@@ -54,22 +54,33 @@ void add_kind(SourceKind kind, std::span<const Fate> fates, double lamps_lm, Led
   texels.into(ledger.on_texels);
 }
 
-// What the lightmap's texels keep of their light, share_kept() at a point of each.
-Result<double> kept_by_lightmap(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                                const Radiosity& radiosity, Context& context) {
-  double sum = 0;
+ToldTexels told_texels(const Atlas& atlas, std::span<const TexelMapPage> texel_map, const Radiosity& radiosity) {
+  ToldTexels out{atlas, texel_map, {}};
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
     const TexelMapPage& map = texel_map[p];
+    std::vector<bool>& told = out.told.emplace_back(std::size_t{map.width} * map.height);
+    for (std::size_t i = 0; i < map.texel.size(); ++i)
+      told[map.texel[i]] = radiosity.pages[p].state[map.texel[i]] == TexelState::kValid && radiosity.visible[p][i] >= 1;
+  }
+  return out;
+}
+
+// What told texels keep of their light, share_kept() at a point of each.
+Result<double> kept_by_lightmap(const Scene& scene, const ToldTexels& texels, const Radiosity& radiosity,
+                                Context& context) {
+  double sum = 0;
+  for (std::size_t p = 0; p < texels.map.size(); ++p) {
+    const TexelMapPage& map = texels.map[p];
     const LightmapPage& page = radiosity.pages[p];
     std::vector<double> kept((map.texel.size() + kRun - 1) / kRun);
     ORIEL_TRY_VOID(parallel_for(context, "", kept.size(), [&](std::size_t run) {
       for (std::size_t i = run * kRun; i < std::min(map.texel.size(), (run + 1) * kRun); ++i) {
-        if (page.state[map.texel[i]] != TexelState::kValid) continue;
+        if (!texels.told[p][map.texel[i]]) continue;
         Sampler sampler(context.seed, p << 32u | i, 0);
         const Vec2 u = sampler.next2();
-        const TexelPoint at = sample_texel(atlas, map, i, Vec3(u, sampler.next1()));
+        const TexelPoint at = sample_texel(texels.atlas, map, i, Vec3(u, sampler.next1()));
         const Vec3 light = page.irradiance[map.texel[i]] * share_kept(shade_point(scene, at.triangle, at.barycentric));
-        kept[run] += luminance(DVec3(light)) * radiosity.visible[p][i] * texel_area_m2(scene, atlas, map, i);
+        kept[run] += luminance(DVec3(light)) * texel_area_m2(scene, texels.atlas, map, i);
       }
     }));
     for (const double part : kept) sum += part;
@@ -97,6 +108,7 @@ Result<Ledger> keep_ledger(const LightmapScene& scene, const Radiosity& radiosit
                            Context& context) {
   const auto& [transport, atlas, texel_map] = scene;
   Ledger ledger;
+  const ToldTexels texels = told_texels(atlas, texel_map, radiosity);
   const Sources sources(transport.accel.scene(), transport.lights);
   if (sources.kinds().empty()) return ledger;
   ledger.lamps_lm = luminance(transport.lights.power());
@@ -110,7 +122,7 @@ Result<Ledger> keep_ledger(const LightmapScene& scene, const Radiosity& radiosit
       for (std::size_t i = run * kRun; i < (run + 1) * kRun; ++i) {
         Sampler sampler(context.seed, stream, static_cast<std::uint32_t>(i));
         const Particle particle = sources.emit(kind, sampler);
-        fates[i] = follow(transport, atlas, particle, sampler, traced);
+        fates[i] = follow(transport, texels, particle, sampler, traced);
       }
       rays += traced;
     }));
@@ -118,7 +130,7 @@ Result<Ledger> keep_ledger(const LightmapScene& scene, const Radiosity& radiosit
     ledger.particles += fates.size();
   }
   ledger.rays = rays;
-  ORIEL_TRY(ledger.lightmap_lm, kept_by_lightmap(transport.accel.scene(), atlas, texel_map, radiosity, context));
+  ORIEL_TRY(ledger.lightmap_lm, kept_by_lightmap(transport.accel.scene(), texels, radiosity, context));
   return ledger;
 }
 

@@ -21,7 +21,7 @@ struct Ledger {
   Lumens lost_behind;      // met the backs of one-sided surfaces, which reflect nothing
   Lumens lost_guard;       // was still on its way after so many bounces that nobody counts on
   Lumens missing;          // emitted - absorbed - escaped - lost: 0 but for noise
-  Lumens on_texels;        // what fronts with texels keep of what comes to them, by particles …
+  Lumens on_texels;        // what fronts with told texels keep of what comes to them, by particles …
   double lightmap_lm = 0;  // … and by the lightmap
 
   double emitted_lm() const { return lamps_lm + from_afar.value; }

@@ -1,5 +1,7 @@
 #include "bake/radiosity/particle.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bake/trace/glass.h"
@@ -19,10 +21,10 @@ double lumens(const Vec3& power) {
 
 class ParticleTracer {
  public:
-  ParticleTracer(const Transport& transport, const Atlas& atlas, const Particle& particle, Sampler& sampler,
+  ParticleTracer(const Transport& transport, const ToldTexels& texels, const Particle& particle, Sampler& sampler,
                  std::uint64_t& rays)
       : t_(transport),
-        atlas_(atlas),
+        texels_(texels),
         sampler_(sampler),
         rays_(rays),
         ray_(particle.ray),
@@ -73,7 +75,7 @@ class ParticleTracer {
 
   // Irradiance in texels goes by the interpolated normal, which the particle knows nothing of.
   void tell_texel(const SurfacePoint& surface) {
-    if (!surface.front || atlas_.page[surface.triangle] < 0) return;
+    if (!surface.front || !texels_.hold(surface.triangle, surface.barycentric)) return;
     const SurfacePoint on_texel = point_on_side(t_.accel.scene(), surface.triangle, surface.barycentric);
     const Vec3 wi = -ray_.direction;
     const float cosine = glm::dot(on_texel.geometric_normal, wi);
@@ -135,7 +137,7 @@ class ParticleTracer {
   }
 
   const Transport& t_;
-  const Atlas& atlas_;
+  const ToldTexels& texels_;
   Sampler& sampler_;
   std::uint64_t& rays_;
   Ray ray_;
@@ -157,9 +159,21 @@ Vec3 share_kept(const ShadePoint& point) {
   return point.coverage * glm::max(Vec3(0), 1.0f - leaves);
 }
 
-Fate follow(const Transport& transport, const Atlas& atlas, const Particle& particle, Sampler& sampler,
+bool ToldTexels::hold(std::uint32_t triangle, const Vec2& b) const {
+  const std::int32_t page = atlas.page[triangle];
+  if (page < 0) return false;
+  const auto number = static_cast<std::size_t>(page);
+  const std::array<DVec2, 3> corners = texel_triangle(atlas, triangle);
+  const DVec2 p = corners[0] + double{b.x} * (corners[1] - corners[0]) + double{b.y} * (corners[2] - corners[0]);
+  const auto along = [](double x, std::uint32_t size) {
+    return static_cast<std::size_t>(std::clamp(x, 0.0, size - 1.0));
+  };
+  return told[number][along(p.y, map[number].height) * map[number].width + along(p.x, map[number].width)];
+}
+
+Fate follow(const Transport& transport, const ToldTexels& texels, const Particle& particle, Sampler& sampler,
             std::uint64_t& rays) {
-  return ParticleTracer(transport, atlas, particle, sampler, rays).run(particle.from_afar);
+  return ParticleTracer(transport, texels, particle, sampler, rays).run(particle.from_afar);
 }
 
 }  // namespace oriel

@@ -45,6 +45,7 @@ struct SceneMaterial {
   Vec3 specular_color{1};
   TextureSlot specular_texture;        // A: multiplies specular
   TextureSlot specular_color_texture;  // multiplies specular_color
+  TextureSlot gloss_texture;           // A: multiplies 1 - roughness
   float transmission = 0;              // KHR_materials_transmission; thin unless solid
   bool solid = false;                  // KHR_materials_volume: closed surfaces around glass of index ior
   Vec3 absorption{0};                  // in it, 1/m: what is left after d is exp(-absorption d)
@@ -71,7 +72,7 @@ auto texture_slots(M& m) {
   return std::array{
       &m.base_color_texture,     &m.metallic_roughness_texture, &m.emission_texture, &m.transmission_texture,
       &m.specular_texture,       &m.specular_color_texture,     &m.normal_texture,   &m.coat_texture,
-      &m.coat_roughness_texture, &m.anisotropy_texture};
+      &m.coat_roughness_texture, &m.anisotropy_texture,         &m.gloss_texture};
 }
 
 // A primitive of a node, placed in the world.

@@ -106,8 +106,8 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
   }
   p.coverage = coverage_of(m, base.a);
   const Vec4 mr = texture_at(at, m.metallic_roughness_texture, false);
-  const float metallic = std::clamp(m.metallic * mr.b, 0.0f, 1.0f),
-              roughness = std::clamp(m.roughness * mr.g, 0.0f, 1.0f);
+  const float metallic = std::clamp(m.metallic * mr.b, 0.0f, 1.0f), gloss = texture_at(at, m.gloss_texture, false).a,
+              roughness = std::clamp(1 - (1 - m.roughness * mr.g) * gloss, 0.0f, 1.0f);
   const float transmission =
       m.transmission > 0 ? m.transmission * texture_at(at, m.transmission_texture, false).r : 0.0f;
   const float specular = m.specular * texture_at(at, m.specular_texture, false).a;

@@ -278,15 +278,5 @@ TEST(Compression, DracoGivesBackWhatWentIn) {
   expect_refused(g, "Draco's 4 vertices");
 }
 
-TEST(Extensions, UnknownOnesAreNamed) {
-  Gltf g = triangle();
-  g.use("KHR_materials_sheen");
-  const Imported used = import(g);
-  ASSERT_TRUE(used.ok()) << used.error();
-  EXPECT_TRUE(used.warned("KHR_materials_sheen"));
-  g.doc["extensionsRequired"] = {"KHR_materials_sheen"};
-  expect_refused(g, "KHR_materials_sheen");
-}
-
 }  // namespace
 }  // namespace oriel::test

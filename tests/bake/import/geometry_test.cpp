@@ -217,7 +217,11 @@ TEST(Nodes, ScenesAreChosen) {
   options.scene = 1;
   EXPECT_EQ(import(g, options).scene().surfaces[0].name, "second");
   g.doc["scene"] = 1;
-  EXPECT_EQ(import(g).scene().surfaces[0].name, "second");
+  g.doc["scenes"][1]["name"] = "upstairs";
+  const Imported by_default = import(g);
+  EXPECT_EQ(by_default.scene().surfaces[0].name, "second");
+  EXPECT_TRUE(by_default.warned("the file has 2 scenes: number 1, \"upstairs\", is taken"));
+  EXPECT_TRUE(import(g, options).warnings.empty()) << "it was asked for";
   options.scene = 2;
   EXPECT_EQ(import(g, options).result.error().code, ErrorCode::kUsage);
   g.doc.erase("scenes");

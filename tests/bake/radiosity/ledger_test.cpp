@@ -144,6 +144,20 @@ INSTANTIATE_TEST_SUITE_P(Features, LedgerOfRooms,
                                          test::Feature::kCutOut, test::Feature::kSphere, test::Feature::kPoint,
                                          test::Feature::kSky, test::Feature::kDielectric, test::Feature::kManyLamps));
 
+// A lamp that shines on all sides hangs a centimetre below the ceiling: half of its light stays above it, where nobody
+// sees the texels, and where the lightmap has none.
+TEST(Ledger, TheGapAboveALampIsNotHeldAgainstTheLightmap) {
+  SceneParts parts;
+  parts.box("room", parts.diffuse(Vec3(0.7f)), Vec3(0), Vec3(2), true);
+  parts.box("lamp", parts.diffuse(Vec3(0.7f), Vec3(10)), {0.52f, 1.94f, 0.52f}, {1.48f, 1.99f, 1.48f});
+  const Scene scene = parts.finish();
+  Kept k{test::bake(scene, 0.1f, {.samples = 256, .eyes = {Vec3(1), Vec3(0.4f, 1.6f, 0.4f)}}), {}};
+  k.ledger = ledger_of(k.baked);
+  expect_closed(k.ledger);
+  EXPECT_LT(k.ledger.on_texels.value, 0.8 * k.ledger.emitted_lm());
+  EXPECT_TRUE(ledger_findings(k.ledger).empty()) << ledger_findings(k.ledger).front();
+}
+
 TEST(Ledger, WarnsOfALightmapThatIsWrong) {
   Kept k = keep(test::room(test::Feature::kMatt), 0.1f, 64);
   EXPECT_TRUE(ledger_findings(k.ledger).empty());
