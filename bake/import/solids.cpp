@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <span>
@@ -121,8 +122,8 @@ class Hollows {
       panes.erase(inner);  // it faces inwards as it should
       const double glass = glass_in[body->surface], air = air_in[body->surface];
       if (air < kMostlyAir * glass) continue;
-      const auto wall = static_cast<float>((glass - air) / area_of(body->surface));
-      panes[body->surface] = panes[inner] = {"", wall / 2};
+      const double wall = (glass - air) / area_of(body->surface);
+      panes[body->surface] = panes[inner] = {"", rounded(wall / 2)};
     }
   }
 
@@ -131,6 +132,12 @@ class Hollows {
     std::uint32_t surface;
     Piece piece;
   };
+  // To three digits: a hundred bulbs of one mesh have one material.
+  static float rounded(double metres) {
+    const double digit = std::pow(10.0, std::floor(std::log10(std::max(metres, 1e-30))) - 2);
+    return static_cast<float>(std::round(metres / digit) * digit);
+  }
+
   static constexpr double kMostlyAir = 0.5;  // of the volume within the outer surface
 
   const Part* body_around(const Part& cavity) const {
