@@ -54,10 +54,7 @@ class Lifter {
     scene_.face_normals.clear();
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
       if (glm::dot(geometric_normal(scene_, t), before[t]) < 0) std::swap(scene_.triangles[t].y, scene_.triangles[t].z);
-    std::vector<Vec3> normals;
-    normals.reserve(scene_.triangles.size());
-    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) normals.push_back(geometric_normal(scene_, t));
-    scene_.face_normals = std::move(normals);
+    keep_face_normals(scene_);
   }
 
  private:

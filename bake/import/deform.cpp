@@ -112,9 +112,16 @@ Result<std::optional<RestShape>> rest_shape(const PosedNodes& nodes, const NodeP
                                            primitive.path));
     TriangleMesh shape = primitive;
     morph(weights, shape);
-    if (skinned) ORIEL_TRY_VOID(bend(joints, shape));
-    shape.targets.clear();
-    shape.influences.clear();
+    if (skinned && shape.influences.empty()) {  // it goes with its node
+      DMat4 rigid = pose.world_from_node;
+      rigid[3] -= DVec4(DVec3(out.world_from_mesh[3]), 0);
+      shape.influences.assign(shape.positions.size(), {0, 1});
+      ORIEL_TRY_VOID(bend(std::span(&rigid, 1), shape));
+    } else if (skinned) {
+      ORIEL_TRY_VOID(bend(joints, shape));
+    }
+    shape.targets = {};
+    shape.influences = {};
     out.mesh.primitives.push_back(std::move(shape));
   }
   return std::optional<RestShape>(std::move(out));

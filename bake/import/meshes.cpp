@@ -90,7 +90,8 @@ class PrimitiveLoader {
     ORIEL_TRY(const std::vector<std::uint32_t> indices, read_indices());
     ORIEL_TRY_VOID(budget_.take(indices.size() * 3 * sizeof(UVec3), where_));
     std::vector<UVec3> triangles = list_of(indices, drops);
-    if (desc_.targets.empty()) drop_bad(position.values, triangles, drops);  // else what they are is known later
+    const bool morphed = std::ranges::any_of(desc_.targets, &TargetDesc::used);
+    if (!morphed) drop_bad(position.values, triangles, drops);  // else what they are is known later
     const std::vector<std::uint32_t> used = compact(triangles);
     mesh.triangles = std::move(triangles);
     ORIEL_TRY_VOID(budget_.take(used.size() * 48, where_));

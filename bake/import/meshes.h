@@ -26,7 +26,8 @@ struct TriangleMesh {
   std::vector<Vec2> uv0, uv1;         // within ±1e9; empty: none
   std::vector<Vec4> tangents;         // as stored, with normals only; empty: none, or no normal map wants them
   std::vector<std::uint32_t> colors;  // RGBA8 linear, R lowest; empty: none
-  std::vector<UVec3> triangles;       // counter-clockwise; without targets never degenerate, no exact duplicates
+  std::vector<UVec3>
+      triangles;  // counter-clockwise; without targets that a node gives a weight never degenerate, no exact duplicates
   std::vector<MorphTarget> targets;   // those that no node gives a weight are empty
   std::vector<Influence> influences;  // vertex by vertex, as many of each; empty: no skin
 };

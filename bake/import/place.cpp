@@ -353,10 +353,7 @@ Status place_meshes(const PosedNodes& nodes, std::span<const LoadedMesh> meshes,
     scene.lower = glm::min(scene.lower, p);
     scene.upper = glm::max(scene.upper, p);
   }
-  std::vector<Vec3> normals;
-  normals.reserve(scene.triangles.size());
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) normals.push_back(geometric_normal(scene, t));
-  scene.face_normals = std::move(normals);
+  keep_face_normals(scene);
   return {};
 }
 

@@ -12,6 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr float kOfSize = 1e-6f, kOfCoordinates = 0x1p-22f;
+constexpr double kLeastArea = 0.5;  // that a triangle keeps
 
 class Seams {
  public:
@@ -109,8 +110,13 @@ class Seams {
     for (std::uint32_t t = 0; t < surface_.triangle_count; ++t) {
       const auto c = corners(t);
       if (first[c[0]] == c[0] && first[c[1]] == c[1] && first[c[2]] == c[2]) continue;
-      const DVec3 a(places_[first[c[0]]]), b(places_[first[c[1]]]), d(places_[first[c[2]]]);
-      if (max_component(glm::abs(Vec3(glm::cross(b - a, d - a)))) > 0) continue;
+      const auto normal = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        const DVec3 a(places_[x]);
+        return glm::cross(DVec3(places_[y]) - a, DVec3(places_[z]) - a);
+      };
+      const DVec3 before = normal(c[0], c[1], c[2]);
+      if (glm::dot(normal(first[c[0]], first[c[1]], first[c[2]]), before) > kLeastArea * glm::dot(before, before))
+        continue;
       for (const std::uint32_t corner : c) kept[first[corner]] = 1;
       any = true;
     }
@@ -130,6 +136,7 @@ class Seams {
 
 void join_seams(Scene& scene) {
   for (const Surface& surface : scene.surfaces) Seams(scene, surface).join();
+  keep_face_normals(scene);
 }
 
 }  // namespace oriel

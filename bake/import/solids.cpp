@@ -18,9 +18,22 @@ using Corner = std::array<float, 3>;
 // Triangles of a shell that hang together. Volume: m³, below 0 where fronts face inwards.
 struct Piece {
   double volume = 0, area = 0;
+  std::vector<std::array<DVec3, 3>> triangles;
   Vec3 lower{std::numeric_limits<float>::infinity()}, upper{-lower};
   bool encloses(const Piece& other) const {
-    return glm::all(glm::lessThanEqual(lower, other.lower)) && glm::all(glm::greaterThanEqual(upper, other.upper));
+    return glm::all(glm::lessThanEqual(lower, other.lower)) && glm::all(glm::greaterThanEqual(upper, other.upper)) &&
+           winds_around(other.triangles[0][0]);
+  }
+  // By the solid angle of the triangles (Van Oosterom and Strackee 1983).
+  bool winds_around(const DVec3& p) const {
+    double angle = 0;
+    for (const auto& t : triangles) {
+      const DVec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
+      const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+      angle += 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                              la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+    }
+    return angle > 2 * kPiD;  // 4π inside, 0 outside
   }
 };
 
@@ -45,6 +58,7 @@ std::vector<Piece> pieces_of(std::span<const std::array<std::uint32_t, 3>> trian
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     Piece& piece = found[sets.root(triangles[t][0])];
     piece.volume += each[t].volume, piece.area += each[t].area;
+    piece.triangles.push_back(each[t].triangles[0]);
     piece.lower = glm::min(piece.lower, each[t].lower), piece.upper = glm::max(piece.upper, each[t].upper);
   }
   std::vector<Piece> pieces;
@@ -73,6 +87,7 @@ Shell shell_of(const Scene& scene, const std::vector<std::uint32_t>& surfaces) {
         id[static_cast<std::size_t>(k)] = corners.try_emplace(Corner{at.x, at.y, at.z}, number).first->second;
       }
       piece.volume = glm::dot(p[0], glm::cross(p[1], p[2])) / 6;
+      piece.triangles = {{p[0], p[1], p[2]}};
       piece.area = glm::length(glm::cross(p[1] - p[0], p[2] - p[0])) / 2;
       shell.volume += piece.volume;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -107,14 +122,15 @@ class Hollows {
   // Bodies that are mostly air become panes, with their hollows: bulbs, bottles. Their glass is too thin to bend light
   // that matters, and lamps in them would be found by chance alone. Hollows in other bodies stay walls of solid glass.
   void settle(std::map<std::uint32_t, Pane>& panes) const {
-    std::map<std::uint32_t, double> air_in, glass_in;  // m³, by surface
+    std::map<std::uint32_t, double> air_in, glass_in, area_of;  // m³, m², by surface
     std::vector<const Part*> around;
     for (const Part& cavity : cavities_) {
       const Part* body = body_around(cavity);
       around.push_back(body);
       if (body != nullptr) air_in[body->surface] -= cavity.piece.volume;
     }
-    for (const Part& body : bodies_) glass_in[body.surface] += body.piece.volume;
+    for (const Part& body : bodies_)
+      glass_in[body.surface] += body.piece.volume, area_of[body.surface] += body.piece.area;
     for (std::size_t i = 0; i < cavities_.size(); ++i) {
       const Part* body = around[i];
       const std::uint32_t inner = cavities_[i].surface;
@@ -122,7 +138,7 @@ class Hollows {
       panes.erase(inner);  // it faces inwards as it should
       const double glass = glass_in[body->surface], air = air_in[body->surface];
       if (air < kMostlyAir * glass) continue;
-      const double wall = (glass - air) / area_of(body->surface);
+      const double wall = std::max(glass - air, 0.0) / area_of[body->surface];
       panes[body->surface] = panes[inner] = {"", rounded(wall / 2)};
     }
   }
@@ -150,11 +166,6 @@ class Hollows {
           (best == nullptr || body.piece.volume < best->piece.volume))
         best = &body;
     return best;
-  }
-  double area_of(std::uint32_t surface) const {
-    double area = 0;
-    for (const Part& body : bodies_) area += body.surface == surface ? body.piece.area : 0;
-    return area;
   }
 
   const Scene& scene_;

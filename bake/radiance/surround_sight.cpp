@@ -27,8 +27,12 @@ SurroundRays::SurroundRays(const Accel& accel, const CurvedObject& object, const
 SurroundSight SurroundRays::look(const Vec3& direction, float farthest) {
   const float bounds_end = leaves_bounds(direction);
   Ray ray{centre_, direction};
-  if (view_ == SurroundView::kBeyondBounds) ray.origin += kAtBounds * bounds_end * direction;
   SurroundSight sight;
+  if (view_ == SurroundView::kBeyondBounds) {
+    ray.origin += kAtBounds * bounds_end * direction;
+    if (farthest < kAtBounds * bounds_end) sight.valid = 0;  // within the bounds nothing is seen, points neither
+    if (sight.valid == 0) return sight;
+  }
   std::uint32_t last = ~0u;
   for (int layer = 0; layer < kMaxLayers; ++layer) {
     const Hit hit = accel_.intersect(ray);

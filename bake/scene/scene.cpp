@@ -17,6 +17,14 @@ Vec3 geometric_normal(const Scene& scene, std::uint32_t triangle) {
   return Vec3(cross / std::sqrt(glm::dot(cross, cross)));
 }
 
+void keep_face_normals(Scene& scene) {
+  scene.face_normals.clear();
+  std::vector<Vec3> normals;
+  normals.reserve(scene.triangles.size());
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) normals.push_back(geometric_normal(scene, t));
+  scene.face_normals = std::move(normals);
+}
+
 double triangle_area(const Scene& scene, std::uint32_t triangle) {
   const DVec3 cross = doubled_area_vector(scene, triangle);
   return 0.5 * std::sqrt(glm::dot(cross, cross));

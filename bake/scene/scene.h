@@ -195,6 +195,8 @@ struct Scene {
 
 // Geometric normal (unit, front side) of a triangle, computed in double: right for slivers too.
 Vec3 geometric_normal(const Scene& scene, std::uint32_t triangle);
+// Finds face_normals of all triangles anew.
+void keep_face_normals(Scene& scene);
 // m².
 double triangle_area(const Scene& scene, std::uint32_t triangle);
 

@@ -10,12 +10,12 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kNone = BouncedLight::kNone;
-constexpr std::uint32_t kMostRays = 64, kFewestRays = 16;  // of a texel
-constexpr std::size_t kMostInAll = std::size_t{1} << 24;   // of 8 bytes each
-constexpr std::size_t kRun = 256;                          // rows that a thread takes at once
-constexpr int kFarthest = 2;                               // texels, from where light was met to one that has some
-constexpr float kSamePlane = 0.95f;                        // cosine between normals of neighbours
-constexpr float kOffPlane = 0.1f;                          // of their distance
+constexpr std::uint32_t kMostRays = 64, kFewestRays = 8;  // of a texel
+constexpr std::size_t kMostInAll = std::size_t{1} << 25;  // of 4 bytes each
+constexpr std::size_t kRun = 256;                         // rows that a thread takes at once
+constexpr int kFarthest = 2;                              // texels, from where light was met to one that has some
+constexpr float kSamePlane = 0.95f;                       // cosine between normals of neighbours
+constexpr float kOffPlane = 0.1f;                         // of their distance
 
 float fraction(double x) {
   return static_cast<float>(x - std::floor(x));
@@ -40,7 +40,7 @@ void for_rows(std::size_t rows, const std::atomic<bool>* stop, const std::functi
 
 LiveBounces::LiveBounces(const LampScene& scene, std::span<const LightmapPage> pages,
                          std::span<const std::vector<PagePoint>> points)
-    : scene_(scene), pages_(pages) {
+    : scene_(&scene), pages_(pages) {
   const auto add = [&](std::uint32_t page, std::size_t k) {
     row_of_[page][k] = static_cast<std::uint32_t>(rows_.size());
     rows_.push_back({page, points[page][k].index, &points[page][k]});
@@ -64,6 +64,16 @@ LiveBounces::LiveBounces(const LampScene& scene, std::span<const LightmapPage> p
       const TexelsAround around = texels_around(pages[p], points[p][k]);
       if (std::ranges::all_of(around.texel, [&](std::size_t t) { return row_at_[p][t] == kNone; })) add(p, k);
     }
+  look_again(scene);
+}
+
+void LiveBounces::look_again(const LampScene& scene) {
+  scene_ = &scene;
+  reflectance_.resize(texels_);
+  for_rows(texels_, nullptr, [&](std::size_t row) {
+    const PagePoint& point = *rows_[row].point;
+    reflectance_[row] = scene.reflectance(point.part, point.first_index, point.shares);
+  });
 }
 
 std::uint32_t LiveBounces::wanted_rays() const {
@@ -73,7 +83,7 @@ std::uint32_t LiveBounces::wanted_rays() const {
 
 void LiveBounces::trace(std::uint32_t rays, const std::atomic<bool>* stop) {
   while (this->rays() < rays && !(stop != nullptr && *stop)) {
-    std::vector<Met> round(rows_.size() * kRound);
+    std::vector<std::uint32_t> round(rows_.size() * kRound);
     const std::uint32_t first = this->rays();
     for_rows(rows_.size(), stop, [&](std::size_t row) {
       for (std::uint32_t i = 0; i < kRound; ++i) round[row * kRound + i] = met(row, first + i);
@@ -82,57 +92,63 @@ void LiveBounces::trace(std::uint32_t rays, const std::atomic<bool>* stop) {
   }
 }
 
-LiveBounces::Met LiveBounces::met(std::size_t row, std::uint32_t ray) const {
+std::uint32_t LiveBounces::met(std::size_t row, std::uint32_t ray) const {
   const PagePoint& point = *rows_[row].point;
   const Vec3 direction = cosine_direction(place(ray, static_cast<std::uint32_t>(row)), point.normal);
-  const auto lit = scene_.lit_place(point.position + scene_.offset_m() * point.normal, direction);
-  if (!lit || lit->page >= pages_.size()) return {};
-  const Vec3 share = glm::clamp(lit->albedo, 0.0f, 1.0f) * 255.0f + 0.5f;
-  return {row_near(lit->page, lit->uv), static_cast<std::uint8_t>(share.r), static_cast<std::uint8_t>(share.g),
-          static_cast<std::uint8_t>(share.b)};
+  const auto lit = scene_->lit_place(point.position + scene_->offset_m() * point.normal, direction);
+  return lit && lit->page < pages_.size() ? row_near(*lit) : kNone;
 }
 
-// Of the texel there, or of the nearest that has light.
-std::uint32_t LiveBounces::row_near(std::size_t page, const Vec2& uv) const {
-  const IVec2 size(static_cast<int>(pages_[page].width), static_cast<int>(pages_[page].height));
-  const IVec2 at = glm::clamp(IVec2(glm::floor(uv * Vec2(size))), IVec2(0), size - 1);
+bool LiveBounces::in_plane(const PagePoint& point, const Vec3& position, const Vec3& normal) const {
+  const Vec3 way = point.position - position;
+  return glm::dot(point.normal, normal) >= kSamePlane &&
+         std::abs(glm::dot(way, normal)) <= kOffPlane * glm::length(way);
+}
+
+// Of the texel there, or of the nearest in its plane that has light: charts lie side by side.
+std::uint32_t LiveBounces::row_near(const LampScene::LitPlace& place) const {
+  const LightmapPage& page = pages_[place.page];
+  const IVec2 size(static_cast<int>(page.width), static_cast<int>(page.height));
+  const IVec2 at = glm::clamp(IVec2(glm::floor(place.uv * Vec2(size))), IVec2(0), size - 1);
+  const auto row_of_texel = [&](int x, int y) {
+    return row_at_[place.page][static_cast<std::size_t>(y) * page.width + static_cast<std::size_t>(x)];
+  };
+  if (const std::uint32_t row = row_of_texel(at.x, at.y); row != kNone) return row;
   std::uint32_t best = kNone;
   int least = 2 * kFarthest * kFarthest + 1;
   for (int y = std::max(at.y - kFarthest, 0); y <= std::min(at.y + kFarthest, size.y - 1); ++y)
     for (int x = std::max(at.x - kFarthest, 0); x <= std::min(at.x + kFarthest, size.x - 1); ++x) {
-      const std::uint32_t row = row_at_[page][static_cast<std::size_t>(y) * pages_[page].width + x];
+      const std::uint32_t row = row_of_texel(x, y);
       const int distance2 = (x - at.x) * (x - at.x) + (y - at.y) * (y - at.y);
-      if (row != kNone && distance2 < least) best = row, least = distance2;
+      if (row == kNone || distance2 >= least || !in_plane(*rows_[row].point, place.position, place.normal)) continue;
+      best = row, least = distance2;
     }
   return best;
 }
 
 LiveBounces::Light LiveBounces::gathered(std::size_t row, std::span<const Light> light) const {
   Light sum;
-  for (const std::vector<Met>& round : rounds_)
+  for (const std::vector<std::uint32_t>& round : rounds_)
     for (std::uint32_t i = 0; i < kRound; ++i) {
-      const Met& met = round[row * kRound + i];
-      if (met.row == kNone) continue;
-      const Vec3 share(met.r, met.g, met.b);
-      sum.now += share * light[met.row].now, sum.baked += share * light[met.row].baked;
+      const std::uint32_t met = round[row * kRound + i];
+      if (met != kNone) sum.now += light[met].now, sum.baked += light[met].baked;
     }
-  const float each = 1 / (255.0f * static_cast<float>(std::max(rays(), 1u)));
+  const float each = 1 / static_cast<float>(std::max(rays(), 1u));
   return {sum.now * each, sum.baked * each};
 }
 
-// The same with what a regression wants of the rays.
+// The same with what a regression wants of the rays: as many as they are, like lights (LiveSum).
 LiveSum LiveBounces::summed(std::size_t row, std::span<const Light> light) const {
   LiveSum sum;
-  const float each = 1 / (255.0f * static_cast<float>(std::max(rays(), 1u)));
-  for (const std::vector<Met>& round : rounds_)
+  const float count = static_cast<float>(std::max(rays(), 1u));
+  for (const std::vector<std::uint32_t>& round : rounds_)
     for (std::uint32_t i = 0; i < kRound; ++i) {
-      const Met& met = round[row * kRound + i];
-      if (met.row == kNone) continue;
-      const Vec3 share = each * Vec3(met.r, met.g, met.b), now = share * light[met.row].now,
-                 baked = share * light[met.row].baked;
+      const std::uint32_t met = round[row * kRound + i];
+      if (met == kNone) continue;
+      const Vec3 now = light[met].now / count, baked = light[met].baked / count;
       sum.now += now, sum.baked += baked;
       const double x = luminance(now), y = luminance(baked);
-      sum.products += x * y, sum.squares += y * y;
+      sum.products += count * x * y, sum.squares += count * y * y;
     }
   return sum;
 }
@@ -148,11 +164,7 @@ LiveSum LiveBounces::smoothed(std::size_t row, std::span<const LiveSum> sums) co
     for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
       const std::uint32_t other = row_at_[page][static_cast<std::size_t>(v) * pages_[page].width + u];
       if (other == kNone) continue;
-      const PagePoint& beside = *rows_[other].point;
-      const Vec3 way = beside.position - point->position;
-      if (glm::dot(beside.normal, point->normal) < kSamePlane ||
-          std::abs(glm::dot(way, point->normal)) > kOffPlane * glm::length(way))
-        continue;
+      if (!in_plane(*rows_[other].point, point->position, point->normal)) continue;
       const float weight = static_cast<float>((2 - std::abs(u - x)) * (2 - std::abs(v - y)));
       add_share(mean, weight, sums[other]);
       total += weight;
@@ -164,31 +176,32 @@ LiveSum LiveBounces::smoothed(std::size_t row, std::span<const LiveSum> sums) co
 
 BouncedLight LiveBounces::bounced(std::span<const std::vector<LiveSum>> direct, std::uint32_t bounces,
                                   const std::atomic<bool>* stop) const {
-  std::vector<Light> from_lamp(texels_);
-  for (std::size_t row = 0; row < texels_; ++row) {
-    const LiveSum& sum = direct[rows_[row].page][rows_[row].index];
-    from_lamp[row] = {sum.now, sum.baked};
-  }
-  std::vector<Light> light = from_lamp, next = light;
-  for (std::uint32_t bounce = 1; bounce < bounces; ++bounce) {
-    for_rows(texels_, stop, [&](std::size_t row) {
-      const Light more = gathered(row, light);
-      next[row] = {from_lamp[row].now + more.now, from_lamp[row].baked + more.baked};
-    });
-    light.swap(next);
-  }
   BouncedLight out;
   out.row_of = row_of_;
   if (bounces == 0) {
     out.sums.resize(rows_.size());
     return out;
   }
+  // What texels reflect of the lamp's light, then with what each bounce adds.
+  std::vector<Light> reflected(texels_), next(texels_);
+  const auto direct_of = [&](std::size_t row) -> const LiveSum& { return direct[rows_[row].page][rows_[row].index]; };
+  const auto reflect = [&](std::size_t row, const Light& more) {
+    const LiveSum& lamp = direct_of(row);
+    return Light{reflectance_[row] * (lamp.now + more.now), reflectance_[row] * (lamp.baked + more.baked)};
+  };
+  for (std::size_t row = 0; row < texels_; ++row) reflected[row] = reflect(row, {});
+  for (std::uint32_t bounce = 1; bounce < bounces; ++bounce) {
+    for_rows(texels_, stop, [&](std::size_t row) { next[row] = reflect(row, gathered(row, reflected)); });
+    reflected.swap(next);
+  }
   std::vector<LiveSum> sums(rows_.size());
-  for_rows(rows_.size(), stop, [&](std::size_t row) { sums[row] = summed(row, light); });
-  double before = 0, after = 0;
-  for (std::size_t row = 0; row < texels_; ++row)
-    before += luminance(light[row].now), after += luminance(from_lamp[row].now + sums[row].now);
-  out.last = after > 0 ? (after - before) / after : 0;
+  for_rows(rows_.size(), stop, [&](std::size_t row) { sums[row] = summed(row, reflected); });
+  double last = 0, all = 0;
+  for (std::size_t row = 0; row < texels_; ++row) {
+    last += luminance(reflectance_[row] * (direct_of(row).now + sums[row].now)) - luminance(reflected[row].now);
+    all += luminance(direct_of(row).now + sums[row].now);
+  }
+  out.left = all > 0 ? last / all : 0;
   out.sums = sums;
   for_rows(texels_, stop, [&](std::size_t row) { out.sums[row] = smoothed(row, sums); });
   return out;

@@ -12,11 +12,11 @@
 
 namespace oriel {
 
-// By page and by point of it; lux.
+// By page and by point of it; lux. Refers to the LiveBounces that it is of.
 struct BouncedLight {
   std::vector<LiveSum> sums;
-  std::vector<std::vector<std::uint32_t>> row_of;  // by page and point: into sums, or kNone
-  double last = 0;                                 // what the last bounce added, over all light there is then
+  std::span<const std::vector<std::uint32_t>> row_of;  // by page and point: into sums, or kNone
+  double left = 0;                                     // what one bounce more would bring, over all light there is
   static constexpr std::uint32_t kNone = ~0u;
 
   // Nothing where `sums` has none: between texels.
@@ -33,6 +33,9 @@ class LiveBounces {
   LiveBounces(const LampScene& scene, std::span<const LightmapPage> pages,
               std::span<const std::vector<PagePoint>> points);
 
+  // The surfaces' textures, or who looks at them, have changed: what texels reflect is found anew, rays stay. Not while
+  // trace() or bounced() run.
+  void look_again(const LampScene& scene);
   // Rays that each texel should have: 64, fewer where that would be too many in all.
   std::uint32_t wanted_rays() const;
   // Traces what is missing to so many rays a texel, in all threads. stop: ends it early, with fewer.
@@ -46,23 +49,19 @@ class LiveBounces {
 
  private:
   static constexpr std::uint32_t kRound = 8;  // rays of a row that are traced together
-  // What a ray meets: a texel that reflects a share of its light, of 255.
-  struct Met {
-    std::uint32_t row = BouncedLight::kNone;
-    std::uint8_t r = 0, g = 0, b = 0;
-  };
   // Irradiance, lux.
   struct Light {
     Vec3 now{0}, baked{0};
   };
 
-  std::uint32_t row_near(std::size_t page, const Vec2& uv) const;
-  Met met(std::size_t row, std::uint32_t ray) const;
+  std::uint32_t row_near(const LampScene::LitPlace& place) const;
+  std::uint32_t met(std::size_t row, std::uint32_t ray) const;
+  bool in_plane(const PagePoint& point, const Vec3& position, const Vec3& normal) const;
   Light gathered(std::size_t row, std::span<const Light> light) const;
   LiveSum summed(std::size_t row, std::span<const Light> light) const;
   LiveSum smoothed(std::size_t row, std::span<const LiveSum> sums) const;
 
-  const LampScene& scene_;
+  const LampScene* scene_;
   std::span<const LightmapPage> pages_;
   struct Row {
     std::uint32_t page = 0, index = 0;  // as PagePoint::index
@@ -72,7 +71,8 @@ class LiveBounces {
   std::size_t texels_ = 0;                          // of rows_
   std::vector<std::vector<std::uint32_t>> row_at_;  // by page and texel
   std::vector<std::vector<std::uint32_t>> row_of_;  // by page and point
-  std::vector<std::vector<Met>> rounds_;            // kRound of each row
+  std::vector<Vec3> reflectance_;                   // of texels' rows
+  std::vector<std::vector<std::uint32_t>> rounds_;  // the rows that rays meet, kRound of each row
 };
 
 }  // namespace oriel

@@ -91,11 +91,6 @@ Mesh parts_where(const Mesh& mesh, const std::function<bool(std::uint32_t)>& wan
 
 }  // namespace
 
-Vec3 cosine_direction(const Vec2& u, const Vec3& normal) {
-  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
-  return frame_from_normal(normal) * Vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1 - u.x)));
-}
-
 Vec3 unshadowed(const LiveLight& light, const Vec3& point, const Vec3& normal, Vec3* missing) {
   const Vec3 to = light.position - point;
   const float d2 = length2(to), inverse = d2 > 0 ? 1 / std::sqrt(d2) : 0.0f;
@@ -188,25 +183,32 @@ Vec3 LampScene::facing_normal(const TriangleHit& hit, const Vec3& direction) con
   return surfaces_.materials[part_of(hit).material].double_sided ? -normal : Vec3(0);
 }
 
-// What is mirrored counts as if it were scattered.
+// The same three vertices, of the mesh that has colours.
 Vec3 LampScene::albedo(const TriangleHit& hit) const {
-  const std::uint32_t index = part_of(hit).material;
+  return albedo(part_of(hit).material, &still_mesh_.indices[hit.first_index], {hit.u, hit.v});
+}
+
+Vec3 LampScene::reflectance(std::uint32_t part, std::size_t first_index, const Vec2& shares) const {
+  return albedo(surfaces_.mesh.parts[part].material, &surfaces_.mesh.indices[first_index], shares);
+}
+
+Vec3 LampScene::albedo(std::uint32_t index, const std::uint32_t* corners, const Vec2& shares) const {
   const Material& material = surfaces_.materials[index];
-  // The same three vertices, of the mesh that has colours.
-  const std::uint32_t* corners = &still_mesh_.indices[hit.first_index];
-  return base_color_at(surfaces_.mesh, material, surfaces_.textures, corners, {hit.u, hit.v}) *
+  return base_color_at(surfaces_.mesh, material, surfaces_.textures, corners, shares) *
              ((1 - material.metallic) * (1 - max_component(reflectance_[index]))) +
          reflectance_[index];
 }
 
 std::optional<LampScene::LitPlace> LampScene::lit_place(const Vec3& from, const Vec3& direction) const {
   const auto hit = still_.first(from, direction);
-  if (!hit || part_of(*hit).lightmap_page < 0 || facing_normal(*hit, direction) == Vec3(0)) return std::nullopt;
+  if (!hit || part_of(*hit).lightmap_page < 0) return std::nullopt;
+  const Vec3 normal = facing_normal(*hit, direction);
+  if (normal == Vec3(0)) return std::nullopt;
   const std::uint32_t* corners = &still_mesh_.indices[hit->first_index];
   const auto& uvs = surfaces_.mesh.lightmap_uvs;
   return LitPlace{static_cast<std::uint32_t>(part_of(*hit).lightmap_page),
                   (1 - hit->u - hit->v) * uvs[corners[0]] + hit->u * uvs[corners[1]] + hit->v * uvs[corners[2]],
-                  albedo(*hit)};
+                  from + hit->distance * direction, normal};
 }
 
 bool LampScene::sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack, Blockers& last) const {

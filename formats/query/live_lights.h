@@ -1,7 +1,9 @@
-// Lights that stand for a lamp and for what it lights: instant radiosity (Keller 1997). Points on the lamp give its
-// direct light, points where random walks from it meet surfaces give the rest.
+// Lights that stand for a lamp: points on it give its direct light. Where wanted others stand for what it lights, where
+// random walks from it meet surfaces: instant radiosity (Keller 1997); else LiveBounces brings what bounces.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,7 +35,10 @@ struct LiveLight {
 Vec3 unshadowed(const LiveLight& light, const Vec3& point, const Vec3& normal, Vec3* missing = nullptr);
 
 // Unit, about that unit normal, in proportion to the cosine. u: in [0, 1)².
-Vec3 cosine_direction(const Vec2& u, const Vec3& normal);
+inline Vec3 cosine_direction(const Vec2& u, const Vec3& normal) {
+  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
+  return frame_from_normal(normal) * Vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1 - u.x)));
+}
 
 struct LiveLights {
   std::vector<LiveLight> lights;  // the direct ones first
@@ -66,15 +71,17 @@ class LampScene {
 
   // By the same random numbers for every pose: what differs between two poses is the poses'.
   LiveLights lights(const LiveOptions& options, const MoverPose& pose) const;
-  // What stands still and is lit, from its front, is met there: a page of the lightmap, its coordinates on it, and the
-  // share of light that it reflects.
+  // What stands still and is lit, from its front, is met there: a page of the lightmap and its coordinates on it.
   struct LitPlace {
     std::uint32_t page = 0;
     Vec2 uv{0};
-    Vec3 albedo{0};
+    Vec3 position{0}, normal{0};  // normal: unit, towards where the ray came from
   };
   // Nothing: no such surface. The lamp is no obstacle.
   std::optional<LitPlace> lit_place(const Vec3& from, const Vec3& direction) const;
+  // The share of light that is reflected at a place of a part's triangle, by the shares of its second and third corner.
+  // What is mirrored counts as if it were scattered. Reads textures.
+  Vec3 reflectance(std::uint32_t part, std::size_t first_index, const Vec2& shares) const;
   // What was last in the way of a light; of the scene and of the lamp. It saves time alone.
   struct Blockers {
     std::uint32_t still = ~0u, lamp = ~0u;
@@ -105,9 +112,10 @@ class LampScene {
   std::vector<std::uint32_t> walks_by_bounce(std::size_t count, std::uint32_t bounces) const;
   void add_walks(std::size_t count, std::uint32_t bounces, const MoverPose& pose, LiveLights& out) const;
   const MeshPart& part_of(const TriangleHit& hit) const;
+  Vec3 albedo(std::uint32_t material, const std::uint32_t* corners, const Vec2& shares) const;
+  Vec3 albedo(const TriangleHit& hit) const;
   // Towards whoever comes along there; 0: its back, which reflects nothing.
   Vec3 facing_normal(const TriangleHit& hit, const Vec3& direction) const;
-  Vec3 albedo(const TriangleHit& hit) const;
 
   LiveSurfaces surfaces_;
   LiveLamp lamp_;

@@ -69,6 +69,7 @@ LiveSum LiveSums::at(LivePart part, const Vec3& point, const Vec3& normal) {
     const double x = luminance(a), y = luminance(b);
     out.products += x * y, out.squares += y * y;
   }
+  out.products *= static_cast<double>(end - first), out.squares *= static_cast<double>(end - first);
   out.sees_now = seen_now.sight(), out.sees_baked = seen_baked.sight();
   return out;
 }

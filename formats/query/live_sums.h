@@ -25,7 +25,9 @@ enum class SeenLights : std::uint8_t { kNone, kSome, kAll, kFacesNone };
 // Irradiance, lux.
 struct LiveSum {
   Vec3 now{0}, baked{0};
-  double products = 0, squares = 0;  // of the lights' luminances: now times baked, baked
+  // Of the luminances of those that it is the sum of, times their number, so that parts of other numbers count alike:
+  // now times baked, baked squared.
+  double products = 0, squares = 0;
   SeenLights sees_now = SeenLights::kFacesNone, sees_baked = SeenLights::kFacesNone;
   // Of `now`, what its indirect lights would give more without extent; without what is infinite.
   Vec3 missing{0};

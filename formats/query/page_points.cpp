@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace oriel {
 namespace {
@@ -12,7 +14,7 @@ constexpr float kInside = 0.01f;  // of the way to the triangle's middle: off th
 
 struct Nearest {
   float distance2 = std::numeric_limits<float>::infinity();
-  std::uint32_t first_index = 0;
+  std::uint32_t part = 0, first_index = 0;
   Vec2 at{0};     // shares of the second and third corner
   Vec2 texel{0};  // that it is the nearest to
 };
@@ -28,7 +30,7 @@ Nearest nearest_in(const std::array<Vec2, 3>& corners, const Vec2& p) {
   Nearest out;
   if (area != 0) {
     const Vec2 at(cross(to, ac) / area, cross(ab, to) / area);
-    if (at.x >= 0 && at.y >= 0 && at.x + at.y <= 1) return {0, 0, at, p};
+    if (at.x >= 0 && at.y >= 0 && at.x + at.y <= 1) return {0, 0, 0, at, p};
   }
   constexpr std::array<Vec2, 3> kAt{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
   for (std::size_t e = 0; e < 3; ++e) {
@@ -37,7 +39,7 @@ Nearest nearest_in(const std::array<Vec2, 3>& corners, const Vec2& p) {
     const float along = length2 > 0 ? std::clamp(glm::dot(p - a, side) / length2, 0.0f, 1.0f) : 0.0f;
     const Vec2 off = p - a - along * side;
     if (const float d2 = glm::dot(off, off); d2 < out.distance2)
-      out = {d2, 0, glm::mix(kAt[e], kAt[(e + 1) % 3], along), p};
+      out = {d2, 0, 0, glm::mix(kAt[e], kAt[(e + 1) % 3], along), p};
   }
   return out;
 }
@@ -48,7 +50,7 @@ class Search {
   Search(const LightmapPage& page) : page_(page), found_(page.irradiance.size() + page.detail.size()) {}
 
   // corners: in texels, (0, 0) the centre of the first.
-  void add(const std::array<Vec2, 3>& corners, std::uint32_t first_index) {
+  void add(const std::array<Vec2, 3>& corners, std::uint32_t part, std::uint32_t first_index) {
     const Vec2 lower = glm::min(corners[0], glm::min(corners[1], corners[2])),
                upper = glm::max(corners[0], glm::max(corners[1], corners[2]));
     const IVec2 last(static_cast<int>(page_.width) - 1, static_cast<int>(page_.height) - 1);
@@ -57,23 +59,24 @@ class Search {
     for (int y = from.y; y <= to.y; ++y)
       for (int x = from.x; x <= to.x; ++x) {
         const std::size_t texel = static_cast<std::size_t>(y) * page_.width + static_cast<std::size_t>(x);
-        offer(texel, Vec2(x, y), corners, first_index);
+        offer(texel, Vec2(x, y), corners, {part, first_index});
         if (page_.cell.empty() || page_.cell[texel] == 0) continue;
         const DetailBlock block = DetailBlock::of(page_.cell[texel]);
         for (std::uint32_t j = 0; j <= block.side(); ++j)
           for (std::uint32_t i = 0; i <= block.side(); ++i)
             offer(page_.irradiance.size() + std::size_t{block.y + j} * page_.detail_width + block.x + i,
-                  Vec2(x, y) + Vec2(i, j) / static_cast<float>(block.side()), corners, first_index);
+                  Vec2(x, y) + Vec2(i, j) / static_cast<float>(block.side()), corners, {part, first_index});
       }
   }
   const std::vector<Nearest>& found() const { return found_; }
 
  private:
-  void offer(std::size_t index, const Vec2& p, const std::array<Vec2, 3>& corners, std::uint32_t first_index) {
+  void offer(std::size_t index, const Vec2& p, const std::array<Vec2, 3>& corners,
+             std::pair<std::uint32_t, std::uint32_t> triangle) {
     Nearest& best = found_[index];
     if (best.distance2 == 0) return;
     Nearest here = nearest_in(corners, p);
-    here.first_index = first_index;
+    std::tie(here.part, here.first_index) = triangle;
     if (here.distance2 < best.distance2) best = here;
   }
 
@@ -87,7 +90,13 @@ PagePoint point_at(const Mesh& mesh, const Nearest& nearest) {
   const auto between = [&](const std::vector<Vec3>& values) {
     return values[corners[0]] * (1 - at.x - at.y) + values[corners[1]] * at.x + values[corners[2]] * at.y;
   };
-  return {0, nearest.texel, between(mesh.positions), normalize_or(between(mesh.normals), Vec3(0, 1, 0))};
+  return {0,
+          nearest.texel,
+          between(mesh.positions),
+          normalize_or(between(mesh.normals), Vec3(0, 1, 0)),
+          nearest.part,
+          nearest.first_index,
+          at};
 }
 
 }  // namespace
@@ -102,7 +111,7 @@ std::vector<PagePoint> page_points(const Mesh& mesh, std::span<const std::uint32
       continue;
     for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; i += 3) {
       const auto corner = [&](std::uint32_t c) { return mesh.lightmap_uvs[mesh.indices[i + c]] * size - 0.5f; };
-      search.add({corner(0), corner(1), corner(2)}, i);
+      search.add({corner(0), corner(1), corner(2)}, p, i);
     }
   }
   std::vector<PagePoint> points;

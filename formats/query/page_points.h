@@ -12,9 +12,11 @@ namespace oriel {
 
 // A texel's centre, or a point of a finer cell; beside its chart: what of the chart is nearest.
 struct PagePoint {
-  std::uint32_t index = 0;            // into LightmapPage::irradiance, or from its size on into detail
-  Vec2 at{0};                         // in texels, (0, 0) being the centre of the first
-  Vec3 position{0}, normal{0, 1, 0};  // normal: unit, of the front
+  std::uint32_t index = 0;                  // into LightmapPage::irradiance, or from its size on into detail
+  Vec2 at{0};                               // in texels, (0, 0) being the centre of the first
+  Vec3 position{0}, normal{0, 1, 0};        // normal: unit, of the front
+  std::uint32_t part = 0, first_index = 0;  // of the mesh: the triangle that it is on
+  Vec2 shares{0};                           // of its second and third corner there
 };
 
 // Of page `number`: its valid texels, and all points of finer cells, in the order of their index. Parts in `without`

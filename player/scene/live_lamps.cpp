@@ -26,7 +26,8 @@ std::string text_of(const LiveReport& report) {
     text += fmt::format("{:.2f} % of its light is cut near lights, {:.1f} % of its flux was not followed; ",
                         100 * report.missing, 100 * report.left);
   if (report.rays > 0)
-    text += fmt::format("bounced by {} rays a texel, the last bounce added {:.1f} %; ", report.rays, 100 * report.last);
+    text +=
+        fmt::format("bounced by {} rays a texel, one bounce more would add {:.1f} %; ", report.rays, 100 * report.last);
   text += fmt::format("{:.0f} % of the bake kept", 100 * report.kept);
   if (!report.through.empty()) text += fmt::format("; it goes through \"{}\"", report.through);
   if (report.outside) text += "; it is outside of all that was baked";
@@ -79,7 +80,7 @@ void LiveLamps::Job::run(const ImageSource& images) {
     LiveBounces& bounces = *lamp->bounces;
     bounces.trace(coarse ? 1 : bounces.wanted_rays(), &stop);
     bounced = bounces.bounced(direct, settings.lights.bounce_count(), &stop);
-    report.rays = bounces.rays(), report.last = static_cast<float>(bounced->last);
+    report.rays = bounces.rays(), report.last = static_cast<float>(bounced->left);
   }
   LiveTotals totals;
   for (std::uint32_t p = 0; p < pages.size() && !stop; ++p) {
@@ -136,7 +137,6 @@ Result<LiveLamps::Lamp*> LiveLamps::lamp_of(std::size_t group) {
     page.standard_error = {}, page.direction = {};
     lamp->pages.push_back(std::move(page));
   }
-  lamp->bounces = std::make_unique<LiveBounces>(*lamp->scene, lamp->pages, lamp->points);
   return (lamps_[group] = std::move(lamp)).get();
 }
 
@@ -144,14 +144,15 @@ void LiveLamps::look_again() {
   for (auto& [group, lamp] : lamps_) lamp->outdated = true, lamp->whole = is_rest(lamp->wanted);
 }
 
-// Its walks look at textures, which come while the job runs: they are made here.
+// Walks, and what texels reflect, look at textures, which come while the job runs: they are made here.
 std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSettings& settings, bool coarse) {
   auto job = std::make_unique<Job>();
   Lamp& lamp = *lamps_[group];
   if (std::exchange(lamp.outdated, false)) {
     lamp.scene = scene_of(group);
-    lamp.bounces = std::make_unique<LiveBounces>(*lamp.scene, lamp.pages, lamp.points);
+    if (lamp.bounces) lamp.bounces->look_again(*lamp.scene);
   }
+  if (!lamp.bounces) lamp.bounces = std::make_unique<LiveBounces>(*lamp.scene, lamp.pages, lamp.points);
   job->group = group, job->lamp = &lamp;
   job->pose = lamp.wanted;
   job->settings = settings;
@@ -190,6 +191,7 @@ Result<bool> LiveLamps::place(std::span<const MoverPose> poses, const LiveSettin
     if (is_rest(poses[group])) {
       changed = changed || !lamp->added.empty();
       lamp->added.clear();
+      if (!job_ || job_->lamp != lamp) lamp->bounces.reset();  // many lamps may have been moved once
       lamp->told = poses[group], lamp->whole = true;
     } else if (!settings.in_background && (lamp->told != lamp->wanted || !lamp->whole)) {
       const auto job = begin(group, settings, false);

@@ -23,7 +23,7 @@ struct LiveReport {
   float missing = 0;       // over the light that it gives: what lights' extent takes of it near them
   float left = 0;          // of its flux, what walks did not follow
   std::uint32_t rays = 0;  // a texel, that bring bounced light; 0: lights do
-  float last = 0;          // of its light, what the last bounce added
+  float last = 0;          // of its light, what one bounce more would add
   float kept = 0;          // mean share of what the bake knows of it that still counts
   std::string through;     // the part that it goes through; empty: none
   bool reaches_nothing = false;

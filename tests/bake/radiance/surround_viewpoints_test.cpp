@@ -113,10 +113,19 @@ TEST(SurroundViewpoints, TheOutsideOfAShadeDoesNotShowItsBulb) {
   FoundCurvedReflectors found = placed(room, {{2.2f, 2.1f, 4}, {2.2f, 1.7f, 2.2f}, {2.8f, 0.2f, 3.2f}});
   ASSERT_EQ(found.maps.size(), 2u);
   capture(room, found);
+  Light point;  // beside the bulb
+  point.position = {2.33f, 1.55f, 3.33f};
+  point.intensity = Vec3(100);
+  room.scene.lights = {point};
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const std::vector<SurroundMap> before = found.maps;
+  add_punctual_lights(*accel, found);
   for (const FoundCurvedReflector& side : found.reflectors) {
     const std::uint32_t t = side.triangles.front();
     const bool inside = room.scene.twin[t] > t;  // fronts face inwards
     EXPECT_EQ(shows_bulb(found.maps[side.reflector.map]), inside);
+    EXPECT_EQ(found.maps[side.reflector.map].radiance != before[side.reflector.map].radiance, inside);
   }
 }
 
