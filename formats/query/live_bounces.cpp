@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "formats/core/color.h"
 #include "formats/core/parallel.h"
@@ -12,10 +13,12 @@ namespace {
 constexpr std::uint32_t kNone = BouncedLight::kNone;
 constexpr std::uint32_t kMostRays = 64, kFewestRays = 8;  // of a texel
 constexpr std::size_t kMostInAll = std::size_t{1} << 25;  // of 4 bytes each
+constexpr std::uint32_t kPlaces = 8;                      // of a texel, whose reflectance is the mean
 constexpr std::size_t kRun = 256;                         // rows that a thread takes at once
 constexpr int kFarthest = 2;                              // texels, from where light was met to one that has some
 constexpr float kSamePlane = 0.95f;                       // cosine between normals of neighbours
-constexpr float kOffPlane = 0.1f;                         // of their distance
+constexpr float kAlike = 0.5f;     // cosine between normals of the place where a ray ends and of a texel beside it
+constexpr float kOffPlane = 0.1f;  // of their distance
 
 float fraction(double x) {
   return static_cast<float>(x - std::floor(x));
@@ -70,9 +73,17 @@ LiveBounces::LiveBounces(const LampScene& scene, std::span<const LightmapPage> p
 void LiveBounces::look_again(const LampScene& scene) {
   scene_ = &scene;
   reflectance_.resize(texels_);
+  // At places of each texel's square by chance: at middles a floor's joints, as far apart as some texels, were all
+  // there is.
   for_rows(texels_, nullptr, [&](std::size_t row) {
     const PagePoint& point = *rows_[row].point;
-    reflectance_[row] = scene.reflectance(point.part, point.first_index, point.shares);
+    const LightmapPage& page = pages_[rows_[row].page];
+    Vec3 sum(0);
+    for (std::uint32_t i = 0; i < kPlaces; ++i) {
+      const Vec2 off = (place(i, static_cast<std::uint32_t>(row)) - 0.5f) / Vec2(page.width, page.height);
+      sum += scene.reflectance(point.part, point.first_index, shares_beside(scene.mesh(), point, off));
+    }
+    reflectance_[row] = sum / static_cast<float>(kPlaces);
   });
 }
 
@@ -105,7 +116,7 @@ bool LiveBounces::in_plane(const PagePoint& point, const Vec3& position, const V
          std::abs(glm::dot(way, normal)) <= kOffPlane * glm::length(way);
 }
 
-// Of the texel there, or of the nearest in its plane that has light: charts lie side by side.
+// Of the texel there, or of the nearest that faces alike: texels of other charts lie beside.
 std::uint32_t LiveBounces::row_near(const LampScene::LitPlace& place) const {
   const LightmapPage& page = pages_[place.page];
   const IVec2 size(static_cast<int>(page.width), static_cast<int>(page.height));
@@ -115,13 +126,13 @@ std::uint32_t LiveBounces::row_near(const LampScene::LitPlace& place) const {
   };
   if (const std::uint32_t row = row_of_texel(at.x, at.y); row != kNone) return row;
   std::uint32_t best = kNone;
-  int least = 2 * kFarthest * kFarthest + 1;
+  float least = std::numeric_limits<float>::infinity();
   for (int y = std::max(at.y - kFarthest, 0); y <= std::min(at.y + kFarthest, size.y - 1); ++y)
     for (int x = std::max(at.x - kFarthest, 0); x <= std::min(at.x + kFarthest, size.x - 1); ++x) {
       const std::uint32_t row = row_of_texel(x, y);
-      const int distance2 = (x - at.x) * (x - at.x) + (y - at.y) * (y - at.y);
-      if (row == kNone || distance2 >= least || !in_plane(*rows_[row].point, place.position, place.normal)) continue;
-      best = row, least = distance2;
+      if (row == kNone || glm::dot(rows_[row].point->normal, place.normal) < kAlike) continue;
+      const float distance = glm::length(rows_[row].point->position - place.position);
+      if (distance < least) best = row, least = distance;
     }
   return best;
 }

@@ -82,6 +82,7 @@ class LampScene {
   // The share of light that is reflected at a place of a part's triangle, by the shares of its second and third corner.
   // What is mirrored counts as if it were scattered. Reads textures.
   Vec3 reflectance(std::uint32_t part, std::size_t first_index, const Vec2& shares) const;
+  const Mesh& mesh() const { return surfaces_.mesh; }
   // What was last in the way of a light; of the scene and of the lamp. It saves time alone.
   struct Blockers {
     std::uint32_t still = ~0u, lamp = ~0u;

@@ -126,6 +126,15 @@ std::vector<PagePoint> page_points(const Mesh& mesh, std::span<const std::uint32
   return points;
 }
 
+Vec2 shares_beside(const Mesh& mesh, const PagePoint& point, const Vec2& offset) {
+  const auto corner = [&](std::uint32_t c) { return mesh.lightmap_uvs[mesh.indices[point.first_index + c]]; };
+  const Vec2 ab = corner(1) - corner(0), ac = corner(2) - corner(0);
+  const float area = cross(ab, ac);
+  if (area == 0) return point.shares;
+  const Vec2 at = point.shares + Vec2(cross(offset, ac), cross(ab, offset)) / area;
+  return at.x >= 0 && at.y >= 0 && at.x + at.y <= 1 ? at : point.shares;
+}
+
 TexelsAround texels_around(const LightmapPage& page, const PagePoint& point) {
   return texels_around((point.at + 0.5f) / Vec2(page.width, page.height), page.width, page.height);
 }

@@ -24,6 +24,10 @@ struct PagePoint {
 std::vector<PagePoint> page_points(const Mesh& mesh, std::span<const std::uint32_t> without, std::uint32_t number,
                                    const LightmapPage& page);
 
+// The shares of the point's triangle at a place of the page beside it, by lightmap coordinates; those of the point
+// where the triangle does not reach.
+Vec2 shares_beside(const Mesh& mesh, const PagePoint& point, const Vec2& offset);
+
 // The four texels around a point's place on its page.
 TexelsAround texels_around(const LightmapPage& page, const PagePoint& point);
 
