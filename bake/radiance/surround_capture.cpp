@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kRaysARow = 2048;        // about
 constexpr std::uint32_t kSunPoints = 64;  // of a disk
-constexpr float kGlass = 0.5f;            // transmission from which a surface is seen through
 constexpr float kBeforeLight = 1e-4f;     // of its distance: what holds a light does not hide it
 
 class SurroundCapture {
@@ -23,7 +22,7 @@ class SurroundCapture {
                   const OutgoingRadiance& outgoing)
       : scene_(accel.scene()),
         outgoing_(outgoing),
-        of_glass_(is_glass(reflector.triangles.front())),
+        of_glass_(is_glass(scene_, reflector.triangles.front())),
         rays_(accel, found.objects[reflector.object], found.maps[reflector.reflector.map].centre, reflector.view) {}
 
   // The light of layers is asked for when it is known which of them lie outside: lobes are traced there, and a ray
@@ -33,7 +32,7 @@ class SurroundCapture {
     radiance = Vec3(0);
     for (const SurroundSight::Layer& layer : sight.layers) {
       // What glass mirrors of what glass mirrors is a thousandth, but of a bulb too bright for a map's one distance.
-      const bool faint = of_glass_ && is_glass(layer.hit.triangle);
+      const bool faint = of_glass_ && is_glass(scene_, layer.hit.triangle);
       radiance +=
           layer.share *
           usable_light(outgoing_({.hit = layer.hit, .towards_eye = -direction, .mirror = faint, .rays = &traced_}));
@@ -51,8 +50,6 @@ class SurroundCapture {
 
  private:
   const Scene& scene_;
-  bool is_glass(std::uint32_t triangle) const { return scene_.material_of(triangle).transmission >= kGlass; }
-
   const OutgoingRadiance& outgoing_;
   bool of_glass_;
   SurroundRays rays_;

@@ -23,6 +23,11 @@ struct SurroundSight {
   bool ended = false;
 };
 
+// Whether a reflector or a surface on a ray's way is seen through rather than looked at.
+inline bool is_glass(const Scene& scene, std::uint32_t triangle) {
+  return scene.material_of(triangle).transmission >= 0.5f;
+}
+
 // Rays from one centre: of the object's own triangles and of what lies inside it they see what `view` says. Surfaces
 // that let at least half of the light pass are walked through; the back of a one-sided surface ends a ray with no
 // light.

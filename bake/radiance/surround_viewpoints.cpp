@@ -71,7 +71,7 @@ class Viewpoint {
     // bulb is near it showed in the wrong places, or not at all.
     const Choice best = best_of({SurroundView::kOutside, SurroundView::kHollow}),
                  beyond = best_of({SurroundView::kBeyondBounds});
-    const bool glass = scene_.material_of(reflector_.triangles.front()).transmission >= kSeeThrough;
+    const bool glass = is_glass(scene_, reflector_.triangles.front());
     return share_seen(beyond, seen) >= (glass ? kNearly : 1.0f) * share_seen(best, seen) ? beyond : best;
   }
 
