@@ -114,7 +114,7 @@ struct LampScene::Start {
   float footprint = 0;                  // 1 / density of directions, steradians
 };
 
-struct LampScene::Surface {
+struct LampScene::Met {
   bool met = false;  // from its front, and it is none of the lamp
   Vec3 at{0}, normal{0}, albedo{0};
   float distance = 0;
@@ -132,6 +132,7 @@ LampScene::LampScene(const LiveSurfaces& surfaces, LiveLamp lamp)
                              [&](std::uint32_t p) { return std::ranges::find(lamp_.parts, p) != lamp_.parts.end(); })),
       still_(still_mesh_),
       lamp_rays_(lamp_mesh_) {
+  for (const Material& material : surfaces.materials) two_sided_.push_back(material.double_sided ? 1 : 0);
   for (const Material& material : surfaces.materials)
     reflectance_.push_back(
         material.fresnel_map < 0
@@ -180,7 +181,7 @@ const MeshPart& LampScene::part_of(const TriangleHit& hit) const {
 Vec3 LampScene::facing_normal(const TriangleHit& hit, const Vec3& direction) const {
   const Vec3 normal = triangle_normal(still_mesh_, hit.first_index);
   if (!(glm::dot(normal, direction) > 0)) return normal;
-  return surfaces_.materials[part_of(hit).material].double_sided ? -normal : Vec3(0);
+  return is_two_sided(part_of(hit).material) ? -normal : Vec3(0);
 }
 
 // The same three vertices, of the mesh that has colours.
@@ -211,14 +212,20 @@ std::optional<LampScene::LitPlace> LampScene::lit_place(const Vec3& from, const 
                   from + hit->distance * direction, normal};
 }
 
+std::optional<LampScene::Surface> LampScene::first_surface(const Vec3& from, const Vec3& direction) const {
+  const auto hit = still_.first(from, direction);
+  if (!hit) return std::nullopt;
+  return Surface{from + hit->distance * direction, facing_normal(*hit, direction), hit->distance};
+}
+
 bool LampScene::sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack, Blockers& last) const {
   if (still_.blocks(from, to, last.still)) return false;
   return pieces_.empty() ||
          !lamp_rays_.blocks(Vec3(lamp_from_pack * Vec4(from, 1)), Vec3(lamp_from_pack * Vec4(to, 1)), last.lamp);
 }
 
-LampScene::Surface LampScene::meet(const Vec3& from, const Vec3& direction, const Mat4& lamp_from_pack) const {
-  Surface out;
+LampScene::Met LampScene::meet(const Vec3& from, const Vec3& direction, const Mat4& lamp_from_pack) const {
+  Met out;
   const auto hit = still_.first(from, direction);
   if (!hit) return out;
   if (!pieces_.empty() &&
@@ -334,7 +341,7 @@ void LampScene::add_walks(std::size_t count, std::uint32_t bounces, const MoverP
     Vec3 from = begun.from, direction = begun.direction, flux = begun.flux / static_cast<float>(walks[0]);
     for (std::size_t j = 0; j < walks.size() && w < walks[j]; ++j) {
       if (j > 0) flux *= static_cast<float>(walks[j - 1]) / static_cast<float>(walks[j]);
-      const Surface surface = max_component(flux) > 0 ? meet(from, direction, lamp_from_pack) : Surface{};
+      const Met surface = max_component(flux) > 0 ? meet(from, direction, lamp_from_pack) : Met{};
       flux = surface.met ? flux * surface.albedo : Vec3(0);  // a walk that ends keeps its place among the lights
       LiveLight& light = out.lights.emplace_back();
       bounce_of.push_back(j);

@@ -83,6 +83,13 @@ class LampScene {
   // What is mirrored counts as if it were scattered. Reads textures.
   Vec3 reflectance(std::uint32_t part, std::size_t first_index, const Vec2& shares) const;
   const Mesh& mesh() const { return surfaces_.mesh; }
+  bool is_two_sided(std::uint32_t material) const { return two_sided_[material] != 0; }
+  // What stands still along a direction (any length), lit or not. Does not look at what the constructor was given.
+  struct Surface {
+    Vec3 position{0}, normal{0};  // normal: unit, towards where the ray came from; 0: its back, which reflects nothing
+    float distance = 0;           // over the direction's length
+  };
+  std::optional<Surface> first_surface(const Vec3& from, const Vec3& direction) const;
   // What was last in the way of a light; of the scene and of the lamp. It saves time alone.
   struct Blockers {
     std::uint32_t still = ~0u, lamp = ~0u;
@@ -104,9 +111,9 @@ class LampScene {
     bool two_sided = false;
   };
   struct Start;
-  struct Surface;
+  struct Met;
   Start start(std::uint32_t walk, const Mat4& pack_from_lamp) const;
-  Surface meet(const Vec3& from, const Vec3& direction, const Mat4& lamp_from_pack) const;
+  Met meet(const Vec3& from, const Vec3& direction, const Mat4& lamp_from_pack) const;
   void add_direct(std::size_t count, const Mat4& pack_from_lamp, LiveLights& out) const;
   // A point of the piece that stands for that area of it.
   static void add_point(const Piece& piece, const Vec2& at, float area, const Mat4& pack_from_lamp, LiveLights& out);
@@ -120,8 +127,9 @@ class LampScene {
 
   LiveSurfaces surfaces_;
   LiveLamp lamp_;
-  std::vector<Vec3> reflectance_;  // by material: mean over the hemisphere
-  Mesh still_mesh_, lamp_mesh_;    // positions, indices and parts
+  std::vector<Vec3> reflectance_;        // by material: mean over the hemisphere
+  std::vector<std::uint8_t> two_sided_;  // by material
+  Mesh still_mesh_, lamp_mesh_;          // positions, indices and parts
   MeshRays still_, lamp_rays_;
   std::vector<Piece> pieces_;
   std::vector<float> chosen_;  // sums of luminous flux of pieces, then of points: who is chosen

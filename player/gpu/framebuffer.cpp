@@ -14,6 +14,16 @@ Status check_complete(const char* what, int width, int height) {
               "found framebuffer status 0x{:04x} for {}x{} pixels, expected it to be complete", status, width, height);
 }
 
+// To the framebuffer that is bound.
+void attach_colors(std::span<const Texture2d* const> colors) {
+  std::vector<GLenum> drawn;
+  for (const Texture2d* color : colors) {
+    drawn.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawn.size()));
+    glFramebufferTexture2D(GL_FRAMEBUFFER, drawn.back(), GL_TEXTURE_2D, color->name(), 0);
+  }
+  glDrawBuffers(static_cast<GLsizei>(drawn.size()), drawn.data());
+}
+
 }  // namespace
 
 Result<Framebuffer> Framebuffer::create(const char* what, const Texture2d* color, const Texture2d* depth,
@@ -41,13 +51,15 @@ Result<Framebuffer> Framebuffer::create(const char* what, const Texture2d& color
 Result<Framebuffer> Framebuffer::create(const char* what, std::span<const Texture2d* const> colors,
                                         const Texture2d& depth) {
   ORIEL_TRY(Framebuffer framebuffer, create(what, nullptr, &depth, true));
-  std::vector<GLenum> drawn;
-  for (const Texture2d* color : colors) {
-    drawn.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawn.size()));
-    glFramebufferTexture2D(GL_FRAMEBUFFER, drawn.back(), GL_TEXTURE_2D, color->name(), 0);
-  }
-  glDrawBuffers(static_cast<GLsizei>(drawn.size()), drawn.data());
+  attach_colors(colors);
   ORIEL_TRY_VOID(check_complete(what, depth.width(), depth.height()));
+  return framebuffer;
+}
+
+Result<Framebuffer> Framebuffer::create(const char* what, std::span<const Texture2d* const> colors) {
+  ORIEL_TRY(Framebuffer framebuffer, create(what, colors.front(), nullptr));
+  attach_colors(colors);
+  ORIEL_TRY_VOID(check_complete(what, colors.front()->width(), colors.front()->height()));
   return framebuffer;
 }
 

@@ -22,6 +22,8 @@ class Framebuffer {
 
   // Any number of images that one pass draws into at once, of one size; location i is colors[i].
   static Result<Framebuffer> create(const char* what, std::span<const Texture2d* const> colors, const Texture2d& depth);
+  // Without depth; at least one image.
+  static Result<Framebuffer> create(const char* what, std::span<const Texture2d* const> colors);
 
   // Both of the same number of samples; depth with its stencil.
   static Result<Framebuffer> create(const char* what, const MultisampleTexture& color, const MultisampleTexture& depth);

@@ -66,6 +66,7 @@ Result<BrightPass> BrightPass::create(gpu::Dialect dialect) {
   BrightPass pass;
   ORIEL_TRY(pass.maps_, ShadowMaps::create(dialect));
   ORIEL_TRY(pass.textures_, ShadowTextures::create(dialect));
+  ORIEL_TRY(pass.shade_, ShadePass::create(dialect));
   ORIEL_TRY(pass.surface_, gpu::Program::create("mover_surface", dialect));
   ORIEL_TRY(pass.shadow_, gpu::Program::create("mover_shadow", dialect));
   ORIEL_TRY(pass.light_, gpu::Program::create("mover_bright_light", dialect));
@@ -89,9 +90,10 @@ void BrightPass::Canvas::bind(const gpu::Framebuffer& target) const {
   glViewport(0, 0, change.width(), change.height());
 }
 
-Status BrightPass::make_targets(int width, int height) {
+Status BrightPass::make_targets(const FrameContext& context) {
+  const int width = context.view.width, height = context.view.height, less = context.options.shade.every_pixel ? 1 : 2;
   ORIEL_TRY_VOID(of_movers_.make(width, height));
-  return of_scene_.make((width + 1) / 2, (height + 1) / 2);
+  return of_scene_.make((width + less - 1) / less, (height + less - 1) / less);
 }
 
 void BrightPass::draw_batches(const FrameContext& context, std::span<const DrawBatch> batches,
@@ -290,15 +292,28 @@ Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context
   const auto& [scene, view, options, stats] = context;
   std::vector<LitMovers> lights =
       find_lit(scene.bright_lights(), movers, make_frustum(view.clip_from_pack), scene.bounds(), options);
-  if (lights.empty()) return std::nullopt;
+  ORIEL_TRY(const bool shaded, shade_.prepare(context, movers));
+  if (lights.empty() && !shaded) return std::nullopt;
   const BrightChange change{{&of_movers_.change, &of_movers_.surfaces}, &of_scene_.change, &of_scene_.surfaces};
   const bool coarse = options.coarse && options.mover_shadows == MoverShadows::kTextures;
-  Known now{scene.serial(),       view.clip_from_pack,   view.width, view.height,
-            options.mover_lights, options.mover_shadows, coarse,     options.light_points,
-            options.look,         options.visible_sets,  {}};
+  Known now{scene.serial(),
+            view.clip_from_pack,
+            view.width,
+            view.height,
+            options.mover_lights,
+            options.mover_shadows,
+            coarse,
+            options.light_points,
+            options.look,
+            options.shade,
+            shade_.version(),
+            shaded,
+            options.visible_sets,
+            {}};
   for (const PlacedMover& placed : movers) now.poses.push_back(placed.pack_from_object);
   if (now == known_) return change;
-  if (known_.width != now.width || known_.height != now.height) ORIEL_TRY_VOID(make_targets(view.width, view.height));
+  if (known_.width != now.width || known_.height != now.height || known_.shade.every_pixel != now.shade.every_pixel)
+    ORIEL_TRY_VOID(make_targets(context));
   known_ = {};
   const auto start = std::chrono::steady_clock::now();
   textures_.prepare(scene, view, lights, options);
@@ -312,6 +327,10 @@ Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context
   }
   for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(context, lit));
   take_by_textures(context);
+  if (shaded) {
+    const ShadeTarget target{of_scene_.surfaces, of_scene_.change, of_scene_.change_target};
+    ORIEL_TRY_VOID(shade_.draw(context, movers, target));
+  }
   known_ = std::move(now);
   return change;
 }

@@ -8,13 +8,15 @@
 // By pixel: what is seen there (position, normal, which mover) is drawn once. Then, for four points of a light after
 // the other, the share that each mover takes from each point is gathered where its shadow can fall, the largest counts,
 // and the light that is left or taken is added up. Where neither eye nor mover moved, the pictures stay. Movers are
-// seen at full size, the scene at half of it: most shadows are soft.
+// seen at full size, the scene at half of it: most shadows are soft. There the shade is added that movers throw in all
+// other light (ShadePass).
 #pragma once
 
 #include <optional>
 
 #include "player/gpu/raster_state.h"
 #include "player/movers/lit_movers.h"
+#include "player/movers/shade_pass.h"
 #include "player/movers/shadow_maps.h"
 #include "player/movers/shadow_textures.h"
 
@@ -35,6 +37,8 @@ class BrightPass {
   // what is given holds until the next call. Own framebuffers stay bound. Error kRuntime.
   Result<std::optional<BrightChange>> draw(const FrameContext& context, std::span<const DrawBatch> shown,
                                            std::span<const PlacedMover> movers);
+  // Whether a frame of the same view would show more of the movers' shade.
+  bool has_news() const { return shade_.has_news(); }
 
  private:
   struct Canvas {
@@ -43,7 +47,7 @@ class BrightPass {
     Status make(int width, int height);
     void bind(const gpu::Framebuffer& target) const;
   };
-  Status make_targets(int width, int height);
+  Status make_targets(const FrameContext& context);
   void draw_surfaces(const FrameContext& context, std::span<const DrawBatch> shown,
                      std::span<const PlacedMover> movers) const;
   void draw_batches(const FrameContext& context, std::span<const DrawBatch> batches, const Mat4& clip_from_object,
@@ -69,6 +73,9 @@ class BrightPass {
     bool coarse = false;  // textures
     int points = 0;
     std::uint32_t look = 0;
+    ShadeSettings shade;
+    std::uint64_t shade_version = 0;
+    bool shaded = false;
     bool visible_sets = true;  // which batches are shown depends on it
     std::vector<Mat4> poses;
     bool operator==(const Known&) const = default;
@@ -76,6 +83,7 @@ class BrightPass {
 
   ShadowMaps maps_;
   ShadowTextures textures_;
+  ShadePass shade_;
   gpu::Program surface_, shadow_, light_;
   gpu::VertexArray no_vertices_;
   Canvas of_movers_, of_scene_;

@@ -38,6 +38,19 @@ nlohmann::ordered_json as_json(const FrameRecord& record) {
           {"holes", s.holes},
           {"mirror_pixels", s.mirror_pixels},
           {"sharp", s.sharp},
+          {"shade",
+           {{"lights", s.shade.lights},
+            {"prepare_s", s.shade.prepare_s},
+            {"cells", s.shade.cells},
+            {"pairs", s.shade.pairs},
+            {"passes", s.shade.passes},
+            {"unmerged_passes", s.shade.unmerged},
+            {"maps", s.shade.maps},
+            {"faces", s.shade.faces},
+            {"cells_ms", s.shade.cells_ms},
+            {"merge_ms", s.shade.merge_ms},
+            {"maps_ms", s.shade.maps_ms},
+            {"light_ms", s.shade.light_ms}}},
           {"in_zone", record.in_zone}};
 }
 
@@ -51,6 +64,10 @@ std::string describe(const FrameStats& stats, bool in_zone) {
     text += fmt::format(", {:.1f} MB of images, {} coarser, {} left out", static_cast<double>(stats.image_bytes) * 1e-6,
                         stats.coarser_images, stats.missing_images);
   if (stats.groups > 0) text += fmt::format(", {} of {} groups may be seen", stats.groups_seen, stats.groups);
+  if (const ShadeStats& shade = stats.shade; shade.lights > 0) {
+    text += fmt::format(", shade of movers in {} lights, made in {:.1f} s", shade.lights, shade.prepare_s);
+    if (shade.passes > 0) text += fmt::format(", in {} passes over {} cells", shade.passes, shade.cells);
+  }
   for (std::size_t i = 0; i < kPassNames.size(); ++i)
     if (stats.ms[i] > 0) text += fmt::format(", {} {:.1f} ms", kPassNames[i], stats.ms[i]);
   return text + (in_zone ? "" : ", outside the zone that reflections were planned for");

@@ -38,6 +38,23 @@ enum class MoverLights { kShadowed, kUnshadowed, kHarmonics };
 // are flat and shadow maps elsewhere.
 enum class MoverShadows { kMaps, kTextures };
 
+// How the shade of movers in the light from everywhere is found, for comparison: each light at each pixel; those that
+// movers may block in a cell of space, at its pixels (Barczak 2006, section 4.3.1); likewise at one of sixteen pixels,
+// and at all of them where surfaces end (4.3.3); likewise, cells with like lights drawn together (4.3.5).
+enum class ShadeWork { kEachLight, kCells, kFewPixels, kMerged };
+struct ShadeSettings {
+  std::uint32_t lights = 128;  // that stand for what surfaces send out, and as many for the sky; 0: no such shade
+  ShadeWork work = ShadeWork::kMerged;
+  std::uint32_t lights_a_pass = 32;  // 7 on the hardware of 2006
+  bool every_pixel = false;          // of the frame, else of one of half its size
+  std::uint32_t map_side = 128;      // texels of a light's map of the movers
+  // Maps that are drawn in a frame, at most, while movers move; 0: all that are late.
+  std::uint32_t maps_a_frame = 0;
+
+  bool operator==(const ShadeSettings&) const = default;
+};
+inline constexpr std::uint32_t kMostShadeLights = 1024;
+
 // What the bake knows of a lamp that has moved: as much as its live lights say (fitted), all of it, what live lights
 // give now less what they gave there being added (differential), or nothing (only).
 enum class LiveMode { kFitted, kDifferential, kOnly };
@@ -81,6 +98,7 @@ struct FrameOptions {
   LiveSettings live{};             // of lamps that are not
   MoverLights mover_lights = MoverLights::kShadowed;
   MoverShadows mover_shadows = MoverShadows::kMaps;
+  ShadeSettings shade{};
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
   // Which it is of frames that are added up: lights' points and rays of frosted glass are others in each, even over
   // all.
@@ -106,6 +124,19 @@ inline constexpr std::array<const char*, 11> kPassNames{
     "depth", "mask", "reflect", "fill", "convolve", "compose", "emitters", "curved", "scene", "transparent", "movers"};
 using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 
+// Of the shade of movers in the light from everywhere.
+struct ShadeStats {
+  std::uint32_t lights = 0;                // of the scene
+  std::uint32_t cells = 0;                 // in view in which movers may block some of them
+  std::uint64_t pairs = 0;                 // of these cells and lights
+  std::uint32_t passes = 0, unmerged = 0;  // the latter without drawing cells together
+  std::uint32_t maps = 0, faces = 0;       // drawn; the latter mover by mover
+  std::uint32_t late = 0;                  // maps that are still to be drawn
+  double prepare_s = 0;                    // for the scene, once
+  // Milliseconds, where a frame is timed: what movers may block, drawing cells together, maps, light.
+  double cells_ms = 0, merge_ms = 0, maps_ms = 0, light_ms = 0;
+};
+
 struct FrameStats {
   std::uint32_t draws = 0;
   std::uint64_t triangles = 0;
@@ -124,6 +155,7 @@ struct FrameStats {
   std::uint64_t reflected_pixels = 0, holes = 0;
   // Of opaque ones without a kernel, by march: of the pixels those in which a map pixel covers no more than two.
   std::uint64_t mirror_pixels = 0, sharp = 0;
+  ShadeStats shade;
   PassTimes ms{};                // by pass, where asked for
   double shadow_texture_ms = 0;  // of the processor's soft-shadow textures, a part of the movers' pass
 };

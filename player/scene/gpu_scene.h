@@ -98,6 +98,7 @@ class GpuScene {
   // The same however its lamps shine.
   std::uint64_t geometry_serial() const { return geometry_serial_; }
   const Bounds& bounds() const { return bounds_; }
+  const BakedLamps& baked_lamps() const { return baked_; }
   // Sorted by material and page.
   const std::vector<DrawRange>& opaque() const { return opaque_; }
   // See-through surfaces, without those of glass bodies.

@@ -22,6 +22,9 @@ class BakedLamps {
   // By group: where its lamps are, from where they were baked. Changes the corners of the pack's emitters.
   void place(std::span<const MoverPose> poses, Pack& pack) const;
 
+  std::span<const Vec3> emission() const { return emission_; }  // by material, cd/m²
+  const Vec3& sky() const { return sky_; }                      // cd/m²
+
  private:
   std::vector<Vec3> emission_, emitters_, bright_;
   std::vector<std::vector<Vec3>> corners_;  // of emitters

@@ -36,6 +36,12 @@ inline const std::map<std::string, MoverLights> kMoverLights{{"shadowed", MoverL
 inline const std::map<std::string, MoverShadows> kMoverShadows{{"maps", MoverShadows::kMaps},
                                                                {"textures", MoverShadows::kTextures}};
 
+inline const std::map<std::string, ShadeWork> kShadeWorks{{"each", ShadeWork::kEachLight},
+                                                          {"cells", ShadeWork::kCells},
+                                                          {"few", ShadeWork::kFewPixels},
+                                                          {"merged", ShadeWork::kMerged}};
+inline const std::map<std::string, bool> kShadePixels{{"half", false}, {"all", true}};
+
 inline const std::map<std::string, LiveMode> kLiveModes{
     {"fitted", LiveMode::kFitted}, {"differential", LiveMode::kDifferential}, {"only", LiveMode::kOnly}};
 

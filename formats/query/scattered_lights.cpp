@@ -1,0 +1,286 @@
+#include "formats/query/scattered_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "formats/core/color.h"
+#include "formats/core/parallel.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kSkyDistance = 20;        // over the scene's radius: from there light is as good as parallel
+constexpr std::uint32_t kRays = 1 << 16;  // that look around
+constexpr std::size_t kBlock = 32;        // sources that are told apart by rays
+constexpr float kBefore = 0.95f;          // of the way to what is around
+constexpr std::uint32_t kMostDirections = 4096;
+constexpr int kPiecesOfScene = 64;  // shining triangles are cut until they are so much smaller than the scene
+constexpr int kMostCuts = 32;       // along a side of a triangle
+
+float fraction(double x) {
+  return static_cast<float>(x - std::floor(x));
+}
+
+// Interleaves the bits of a place in a box, so that what is near in space is near in order (Morton 1966).
+std::uint64_t morton(const Vec3& p, const Vec3& lower, float size) {
+  std::uint64_t code = 0;
+  const Vec3 at = glm::clamp((p - lower) / std::max(size, 1e-30f), Vec3(0), Vec3(1)) * 1048575.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    auto x = static_cast<std::uint64_t>(at[axis]);
+    x = (x | x << 32) & 0x1f00000000ffffull, x = (x | x << 16) & 0x1f0000ff0000ffull;
+    x = (x | x << 8) & 0x100f00f00f00f00full, x = (x | x << 4) & 0x10c30c30c30c30c3ull;
+    code |= ((x | x << 2) & 0x1249249249249249ull) << axis;
+  }
+  return code;
+}
+
+struct Triangle {
+  Vec3 a{0}, ab{0}, ac{0};
+  float area() const { return 0.5f * glm::length(glm::cross(ab, ac)); }
+};
+Triangle triangle_of(const Mesh& mesh, std::size_t first) {
+  const Vec3 a = mesh.positions[mesh.indices[first]];
+  return {a, mesh.positions[mesh.indices[first + 1]] - a, mesh.positions[mesh.indices[first + 2]] - a};
+}
+
+// Of a texel of the page, where that triangle lies on it.
+float texel_area(const Mesh& mesh, const LightmapPage& page, std::size_t first) {
+  const Vec2 a = mesh.lightmap_uvs[mesh.indices[first]];
+  const Vec2 ab = mesh.lightmap_uvs[mesh.indices[first + 1]] - a, ac = mesh.lightmap_uvs[mesh.indices[first + 2]] - a;
+  const float on_page = 0.5f * std::abs(ab.x * ac.y - ab.y * ac.x);
+  if (!(on_page > 0)) return 0;
+  const float area = triangle_of(mesh, first).area() / (on_page * static_cast<float>(page.width * page.height));
+  return std::isfinite(area) ? area : 0;
+}
+
+std::vector<float> part_areas(const Mesh& mesh) {
+  std::vector<float> areas;
+  for (const MeshPart& part : mesh.parts) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 2 < part.index_count; i += 3) sum += triangle_of(mesh, part.first_index + i).area();
+    areas.push_back(static_cast<float>(sum));
+  }
+  return areas;
+}
+
+Vec3 even_direction(std::uint32_t i, std::uint32_t count) {
+  const float z = 1 - (2 * static_cast<float>(i) + 1) / static_cast<float>(count);
+  const float r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * fraction(i * 0.6180339887498949);
+  return {r * std::cos(phi), z, r * std::sin(phi)};
+}
+
+// Texels reach over the borders of their charts: each part's are as large together as it is.
+std::vector<float> area_factors(const Mesh& mesh, std::span<const std::uint32_t> part_of,
+                                std::span<const float> areas) {
+  std::vector<float> factors = part_areas(mesh);
+  std::vector<double> sums(factors.size(), 0);
+  for (std::size_t i = 0; i < areas.size(); ++i) sums[part_of[i]] += areas[i];
+  for (std::size_t p = 0; p < factors.size(); ++p)
+    factors[p] = sums[p] > 0 ? static_cast<float>(factors[p] / sums[p]) : 0.0f;
+  return factors;
+}
+
+}  // namespace
+
+// What rays from some places meet.
+struct ScatterSources::Seen {
+  std::vector<float> share;  // by block of sources: of the rays, over its area
+  std::vector<Vec3> open;    // directions of those that meet nothing
+  Vec3 middle{0};            // of the places
+  float radiance = 0;        // that rays bring from surfaces, in the mean over all of them
+};
+
+ScatterSources::ScatterSources(const ScatteredScene& in) {
+  lower_ = Vec3(std::numeric_limits<float>::max()), upper_ = Vec3(std::numeric_limits<float>::lowest());
+  for (const Vec3& p : in.scene.mesh().positions) lower_ = glm::min(lower_, p), upper_ = glm::max(upper_, p);
+  add_texels(in);
+  add_emission(in, glm::length(upper_ - lower_) / kPiecesOfScene);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+  for (std::uint32_t i = 0; i < sources_.size(); ++i)
+    order.emplace_back(code_of(sources_[i].position, sources_[i].normal), i);
+  std::ranges::sort(order);
+  std::vector<Source> ordered;
+  for (const auto& [code, i] : order) ordered.push_back(sources_[i]), codes_.push_back(code);
+  sources_ = std::move(ordered);
+}
+
+void ScatterSources::add_texels(const ScatteredScene& in) {
+  const Mesh& mesh = in.scene.mesh();
+  std::vector<std::uint32_t> part_of;
+  std::vector<const PagePoint*> point_of;
+  std::vector<float> areas;
+  for (std::uint32_t p = 0; p < in.pages.size(); ++p)
+    for (const PagePoint& point : in.points[p]) {
+      if (point.index >= in.pages[p].irradiance.size()) continue;
+      sources_.push_back({point.position, point.normal, Vec3(0), 0, ScatterSource::kTexel, p, point.index});
+      areas.push_back(texel_area(mesh, in.pages[p], point.first_index));
+      part_of.push_back(point.part), point_of.push_back(&point);
+    }
+  const std::vector<float> factors = area_factors(mesh, part_of, areas);
+  constexpr std::size_t kRun = 4096;
+  for_each_parallel((sources_.size() + kRun - 1) / kRun, core_count(), [&](std::size_t run) {
+    for (std::size_t i = run * kRun; i < std::min(sources_.size(), (run + 1) * kRun); ++i) {
+      const PagePoint& point = *point_of[i];
+      Source& source = sources_[i];
+      source.area = areas[i] * factors[part_of[i]];
+      source.flux = source.area * in.pages[source.index].irradiance[point.index] *
+                    in.scene.reflectance(point.part, point.first_index, point.shares);
+    }
+  });
+}
+
+void ScatterSources::add_pieces(const Vec3& a, const Vec3& ab, const Vec3& ac, float longest, const Source& like) {
+  const float side = std::max({glm::length(ab), glm::length(ac), glm::length(ac - ab)});
+  const int cuts = std::clamp(static_cast<int>(std::ceil(side / std::max(longest, 1e-30f))), 1, kMostCuts);
+  const float step = 1.0f / static_cast<float>(cuts), area = 0.5f * glm::length(glm::cross(ab, ac)) * step * step;
+  for (int i = 0; i < cuts; ++i)
+    for (int j = 0; i + j < cuts; ++j)
+      for (int upper = 0; upper < (i + j + 1 < cuts ? 2 : 1); ++upper) {
+        const float third = upper == 0 ? 1.0f / 3 : 2.0f / 3;
+        Source piece = like;
+        piece.position = a + step * ((static_cast<float>(i) + third) * ab + (static_cast<float>(j) + third) * ac);
+        piece.area = area, piece.flux = area * like.flux;
+        sources_.push_back(piece);
+      }
+}
+
+// What shines: of two-sided materials both sides do.
+void ScatterSources::add_emission(const ScatteredScene& in, float longest) {
+  const Mesh& mesh = in.scene.mesh();
+  for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
+    const MeshPart& part = mesh.parts[p];
+    if (in.left_out[p] != 0 || luminance(in.emission[part.material]) <= 0) continue;
+    for (std::size_t i = 0; i + 2 < part.index_count; i += 3) {
+      const Triangle triangle = triangle_of(mesh, part.first_index + i);
+      Source like;
+      like.normal = normalize_or(glm::cross(triangle.ab, triangle.ac), Vec3(0));
+      like.flux = kPi * in.emission[part.material];
+      like.kind = ScatterSource::kEmission, like.index = part.material;
+      if (like.normal == Vec3(0)) continue;
+      add_pieces(triangle.a, triangle.ab, triangle.ac, longest, like);
+      if (!in.scene.is_two_sided(part.material)) continue;
+      like.normal = -like.normal;
+      add_pieces(triangle.a, triangle.ab, triangle.ac, longest, like);
+    }
+  }
+}
+
+// The side that a surface faces comes first: the two sides of a wall lie together and have nothing in common.
+std::uint64_t ScatterSources::code_of(const Vec3& position, const Vec3& normal) const {
+  const Vec3 size = glm::abs(normal);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const auto side = static_cast<std::uint64_t>(2 * axis + (normal[axis] < 0 ? 1 : 0));
+  return side << 60 | morton(position, lower_, max_component(upper_ - lower_));
+}
+
+std::size_t ScatterSources::nearest(const Vec3& position, const Vec3& normal) const {
+  const auto at = std::ranges::lower_bound(codes_, code_of(position, normal));
+  return std::min(static_cast<std::size_t>(at - codes_.begin()), codes_.size() - 1);
+}
+
+ScatterSources::Seen ScatterSources::look_around(const LampScene& around, std::span<const Vec4> places) const {
+  constexpr std::uint32_t kOpen = ~0u, kBack = ~0u - 1;
+  std::vector<std::uint32_t> met(kRays, kBack);
+  std::vector<Vec3> ways(kRays);
+  for_each_parallel(kRays, core_count(), [&](std::size_t ray) {
+    const Vec4& place = places[ray % places.size()];
+    const auto i = static_cast<double>(ray / places.size());
+    const Vec3 in_cube(fraction(i * 0.8191725133961645), fraction(i * 0.6710436067037893),
+                       fraction(i * 0.5497004779019703));
+    // On this side of what is around: a sphere about what stands on a floor reaches below it.
+    const Vec3 off = place.w * (2.0f * in_cube - 1.0f) / std::sqrt(3.0f);
+    const auto before = around.first_surface(Vec3(place), off);
+    const Vec3 from = Vec3(place) + (before && before->distance < 1 ? kBefore * before->distance : 1.0f) * off;
+    ways[ray] = even_direction(static_cast<std::uint32_t>(i * 7919) % kMostDirections, kMostDirections);
+    const auto surface = around.first_surface(from, ways[ray]);
+    if (!surface)
+      met[ray] = kOpen;
+    else if (surface->normal != Vec3(0) && !sources_.empty())
+      met[ray] = static_cast<std::uint32_t>(nearest(surface->position, surface->normal) / kBlock);
+  });
+  Seen seen;
+  seen.share.assign(sources_.size() / kBlock + 1, 0);
+  for (const Vec4& place : places) seen.middle += Vec3(place) / static_cast<float>(places.size());
+  for (std::uint32_t ray = 0; ray < kRays; ++ray) {
+    if (met[ray] == kOpen) seen.open.push_back(ways[ray]);
+    if (met[ray] < seen.share.size()) seen.share[met[ray]] += 1.0f / kRays;
+  }
+  for (std::size_t b = 0; b < seen.share.size(); ++b) {
+    float area = 0, flux = 0;
+    for (std::size_t i = b * kBlock; i < std::min(sources_.size(), (b + 1) * kBlock); ++i)
+      area += sources_[i].area, flux += luminance(sources_[i].flux);
+    seen.share[b] = area > 0 ? seen.share[b] / area : 0.0f;
+    seen.radiance += seen.share[b] * flux / kPi;
+  }
+  return seen;
+}
+
+// Systematic sampling along the order of places, each as often as it brings light.
+void ScatterSources::draw_surfaces(const Seen& seen, std::uint32_t count, std::vector<ScatteredLight>& out) const {
+  const double each = double{seen.radiance} * kPi / count;
+  if (!(each > 0) || !std::isfinite(each)) return;
+  double sum = 0;
+  std::uint32_t drawn = 0;
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const Source& s = sources_[i];
+    const double own = double{luminance(s.flux)} * seen.share[i / kBlock];
+    sum += own;
+    std::uint32_t times = 0;
+    while (drawn < count && sum >= (drawn + 0.5) * each) ++drawn, ++times;
+    if (times == 0) continue;
+    const auto stands_for = static_cast<float>(times * each / own);  // times itself
+    ScatteredLight light;
+    light.light.position = s.position, light.light.normal = s.normal;
+    light.light.intensity = stands_for * s.flux / kPi, light.light.disk = stands_for * s.area / kPi;
+    light.source = s.kind, light.index = s.index, light.texel = s.texel;
+    out.push_back(light);
+  }
+}
+
+// Even directions, of which those are left out from which no ray saw the sky.
+void ScatterSources::draw_sky(const Seen& seen, const Vec3& sky, std::uint32_t count,
+                              std::vector<ScatteredLight>& out) const {
+  const float share = static_cast<float>(seen.open.size()) / kRays;
+  const auto all = std::min(static_cast<std::uint32_t>(static_cast<float>(count) / share), kMostDirections);
+  std::vector<std::uint32_t> rays(all, 0);
+  std::vector<Vec3> directions;
+  for (std::uint32_t i = 0; i < all; ++i) directions.push_back(even_direction(i, all));
+  for (const Vec3& way : seen.open) {
+    const auto nearer = [&](const Vec3& a, const Vec3& b) { return glm::dot(a, way) < glm::dot(b, way); };
+    ++rays[static_cast<std::size_t>(std::ranges::max_element(directions, nearer) - directions.begin())];
+  }
+  const float distance = kSkyDistance * 0.5f * glm::length(upper_ - lower_);
+  const float solid_angle = 4 * kPi / static_cast<float>(std::max(all, 1u));
+  for (std::uint32_t i = 0; i < all; ++i) {
+    if (rays[i] == 0) continue;
+    ScatteredLight light;
+    light.light.position = seen.middle + distance * directions[i];
+    light.light.intensity = sky * (solid_angle * distance * distance);
+    light.source = ScatterSource::kSky;
+    out.push_back(light);
+  }
+}
+
+std::vector<ScatteredLight> ScatterSources::draw(const LampScene& around, const Vec3& sky, std::span<const Vec4> places,
+                                                 std::uint32_t count) const {
+  std::vector<ScatteredLight> out;
+  if (count == 0 || places.empty()) return out;
+  const Seen seen = look_around(around, places);
+  const float from_sky = luminance(sky) * static_cast<float>(seen.open.size()) / kRays;
+  if (!(from_sky + seen.radiance > 0)) return out;
+  const auto of_sky =
+      static_cast<std::uint32_t>(std::lround(static_cast<float>(count) * from_sky / (from_sky + seen.radiance)));
+  if (of_sky < count) draw_surfaces(seen, count - of_sky, out);
+  if (of_sky > 0) draw_sky(seen, sky, of_sky, out);
+  return out;
+}
+
+Vec3 ScatterSources::flux() const {
+  Vec3 sum(0);
+  for (const Source& s : sources_) sum += s.flux;
+  return sum;
+}
+
+}  // namespace oriel

@@ -1,0 +1,46 @@
+// Depth of movers and of what stands still around lights that stand for all light from everywhere, on the device.
+#pragma once
+
+#include "player/gpu/framebuffer.h"
+#include "player/movers/mover_pass.h"
+#include "player/movers/shade_scene.h"
+
+namespace oriel {
+
+class ShadeMaps {
+ public:
+  static Result<ShadeMaps> create(gpu::Dialect dialect);
+
+  // Maps of the movers of `side`² texels a light; all of them are to be drawn anew. Error kRuntime.
+  Status begin(const ShadeScene& scene, int side);
+  // Movers at these poses: light by light, what each of them may block.
+  struct Wanted {
+    std::uint32_t light = 0;
+    float brightest = 0;  // its brightest channel, cd
+  };
+  // Draws maps in which movers are not where they are drawn, at most so many (0: all): the brightest times the calls
+  // that it is late first, so that none waits for ever (Barczak 2006, section 4.5.3). How many are left. Its own
+  // framebuffer stays bound.
+  std::size_t refresh(std::span<const Wanted> wanted, std::span<const PlacedMover> movers, std::size_t most,
+                      FrameStats& stats);
+
+  const gpu::TextureArray& movers() const { return movers_; }
+  const gpu::TextureArray& still() const { return still_; }
+  int side() const { return side_; }
+
+ private:
+  struct Known {
+    std::vector<Mat4> poses;  // of all movers when it was drawn; empty: never
+    std::uint32_t late = 0;   // calls since it was wanted
+  };
+  void draw(std::uint32_t light, std::span<const PlacedMover> movers, FrameStats& stats) const;
+
+  gpu::Program depth_;
+  gpu::Framebuffer target_;
+  gpu::TextureArray movers_, still_;
+  std::vector<HemisphereMap> maps_;
+  std::vector<Known> known_;  // by light
+  int side_ = 0;
+};
+
+}  // namespace oriel
