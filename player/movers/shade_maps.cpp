@@ -26,7 +26,6 @@ Status ShadeMaps::begin(const ShadeScene& scene, int side) {
   if (!target_) target_ = gpu::Framebuffer::create_for_layers();
   maps_ = scene.maps;
   known_.assign(scene.lights.size(), {});
-  fprintf(stderr, "DBG %zu lights\n", scene.lights.size());
   int t = 0, e = 0, k = 0;
   for (auto& l : scene.lights) {
     (l.source == ScatterSource::kTexel ? t : l.source == ScatterSource::kSky ? k : e)++;
