@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kSkyDistance = 20;        // over the scene's radius: from there light is as good as parallel
 constexpr std::uint32_t kRays = 1 << 16;  // that look around
-constexpr std::size_t kBlock = 32;        // sources that are told apart by rays
+constexpr std::size_t kBlocks = 2048;     // of sources, that rays tell apart
 constexpr float kBefore = 0.95f;          // of the way to what is around
 constexpr std::uint32_t kMostDirections = 4096;
 constexpr int kPiecesOfScene = 64;  // shining triangles are cut until they are so much smaller than the scene
@@ -180,6 +180,10 @@ std::size_t ScatterSources::nearest(const Vec3& position, const Vec3& normal) co
   return std::min(static_cast<std::size_t>(at - codes_.begin()), codes_.size() - 1);
 }
 
+std::size_t ScatterSources::block() const {
+  return std::max<std::size_t>(sources_.size() / kBlocks, 1);
+}
+
 ScatterSources::Seen ScatterSources::look_around(const LampScene& around, std::span<const Vec4> places) const {
   constexpr std::uint32_t kOpen = ~0u, kBack = ~0u - 1;
   std::vector<std::uint32_t> met(kRays, kBack);
@@ -198,10 +202,10 @@ ScatterSources::Seen ScatterSources::look_around(const LampScene& around, std::s
     if (!surface)
       met[ray] = kOpen;
     else if (surface->normal != Vec3(0) && !sources_.empty())
-      met[ray] = static_cast<std::uint32_t>(nearest(surface->position, surface->normal) / kBlock);
+      met[ray] = static_cast<std::uint32_t>(nearest(surface->position, surface->normal) / block());
   });
   Seen seen;
-  seen.share.assign(sources_.size() / kBlock + 1, 0);
+  seen.share.assign(sources_.size() / block() + 1, 0);
   for (const Vec4& place : places) seen.middle += Vec3(place) / static_cast<float>(places.size());
   for (std::uint32_t ray = 0; ray < kRays; ++ray) {
     if (met[ray] == kOpen) seen.open.push_back(ways[ray]);
@@ -209,7 +213,7 @@ ScatterSources::Seen ScatterSources::look_around(const LampScene& around, std::s
   }
   for (std::size_t b = 0; b < seen.share.size(); ++b) {
     float area = 0, flux = 0;
-    for (std::size_t i = b * kBlock; i < std::min(sources_.size(), (b + 1) * kBlock); ++i)
+    for (std::size_t i = b * block(); i < std::min(sources_.size(), (b + 1) * block()); ++i)
       area += sources_[i].area, flux += luminance(sources_[i].flux);
     seen.share[b] = area > 0 ? seen.share[b] / area : 0.0f;
     seen.radiance += seen.share[b] * flux / kPi;
@@ -225,7 +229,7 @@ void ScatterSources::draw_surfaces(const Seen& seen, std::uint32_t count, std::v
   std::uint32_t drawn = 0;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Source& s = sources_[i];
-    const double own = double{luminance(s.flux)} * seen.share[i / kBlock];
+    const double own = double{luminance(s.flux)} * seen.share[i / block()];
     sum += own;
     std::uint32_t times = 0;
     while (drawn < count && sum >= (drawn + 0.5) * each) ++drawn, ++times;

@@ -59,6 +59,7 @@ class ScatterSources {
   void add_emission(const ScatteredScene& in, float longest);
   void add_pieces(const Vec3& a, const Vec3& ab, const Vec3& ac, float longest, const Source& like);
   std::uint64_t code_of(const Vec3& position, const Vec3& normal) const;
+  std::size_t block() const;  // sources of one
   std::size_t nearest(const Vec3& position, const Vec3& normal) const;
   Seen look_around(const LampScene& around, std::span<const Vec4> places) const;
   void draw_surfaces(const Seen& seen, std::uint32_t count, std::vector<ScatteredLight>& out) const;

@@ -1,6 +1,6 @@
 // What a light sees as a square: half of an octahedron around it, seen from above, turned so that it fills the square
 // (Barczak 2006, section 4.2.1). Each of its four faces is a projective map: lines stay lines, so that triangles are
-// drawn as they are, a face a pass. No OpenGL; the same maths as shaders/lib/hemisphere.glsl.
+// drawn as they are, a face a pass. No OpenGL; the same maths as shaders/lib/shade.glsl.
 #pragma once
 
 #include "formats/query/live_lights.h"

@@ -30,7 +30,6 @@ Status ShadeMaps::begin(const ShadeScene& scene, int side) {
   for (auto& l : scene.lights) {
     (l.source == ScatterSource::kTexel ? t : l.source == ScatterSource::kSky ? k : e)++;
   }
-  fprintf(stderr, "texel %d emis %d sky %d\n", t, e, k);
   return gpu::check_gl("making shadow maps of many lights");
 }
 

@@ -8,11 +8,9 @@
 namespace oriel {
 namespace {
 
-constexpr int kStep = 4;                          // of the frame's pixels one is drawn along each side
-constexpr int kListWidth = 1024;                  // numbers in a row
-constexpr int kLightTexels = 4, kCellTexels = 4;  // a row, as shaders/lib/hemisphere.glsl and shade_light.vert have it
-enum { kLightsUnit = 8, kListUnit = 9, kCellsUnit = 10, kMaskUnit = 1, kFewerUnit = 2, kFewerLightUnit = 3 };
-constexpr GLuint kNoSurfaces[] = {0, 0, 0, ~0u};
+constexpr int kStep = 4;          // of the frame's pixels one is drawn along each side
+constexpr int kListWidth = 1024;  // numbers in a row
+enum { kFewerUnit = 2, kFewerLightUnit = 3 };
 
 // Where a frame is timed, waits for what was drawn.
 class Stopwatch {
@@ -33,8 +31,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-gpu::Texture2d float_rows(int width, std::span<const Vec4> texels) {
-  return {gpu::kRgba32f, width, static_cast<int>(texels.size()) / width, texels.data()};
+// Where a pixel of a picture of fewer is the middle of the pixel that it stands for: scale and offset, in the whole
+// view's coordinates from -1 to 1.
+Vec4 view_of_fewer(const gpu::Texture2d& all, const gpu::Texture2d& fewer) {
+  const Vec2 whole(all.width(), all.height()), few(fewer.width(), fewer.height());
+  const Vec2 scale = whole / (static_cast<float>(kStep) * few);
+  const float off = static_cast<float>(kStep / 2) + 0.5f - 0.5f * static_cast<float>(kStep);
+  return {scale, scale - 2 * off / (static_cast<float>(kStep) * few) - 1.0f};
 }
 
 }  // namespace
@@ -59,7 +62,7 @@ ShadePass::ShadePass() = default;
 Result<ShadePass> ShadePass::create(gpu::Dialect dialect) {
   ShadePass pass;
   ORIEL_TRY(pass.maps_, ShadeMaps::create(dialect));
-  ORIEL_TRY(pass.light_, gpu::Program::create("shade_light", dialect));
+  ORIEL_TRY(pass.light_, ShadeDraw::create(dialect));
   ORIEL_TRY(pass.fewer_, gpu::Program::create("screen_shade_fewer", dialect));
   ORIEL_TRY(pass.between_, gpu::Program::create("screen_shade_between", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
@@ -108,23 +111,8 @@ Status ShadePass::take(ShadeScene scene, const FrameContext& context) {
   if (scene_->lights.empty()) return {};
   blocked_.emplace(scene_->cells, scene_->shade_lights(),
                    [scene = scene_](std::uint32_t light, const Bounds& box) { return scene->hides(light, box); });
-  upload_cells();
+  ORIEL_TRY_VOID(light_.set_scene(*scene_));
   return maps_.begin(*scene_, static_cast<int>(context.options.shade.map_side));
-}
-
-// One row more than cells: all of space.
-void ShadePass::upload_cells() {
-  constexpr float kFar = 1e30f;
-  std::vector<Vec4> texels;
-  Bounds all;
-  for (const ShadeCell& cell : scene_->cells) {
-    for (const Vec3& corner : {cell.cell.lower, cell.cell.upper})
-      texels.emplace_back(glm::clamp(corner, Vec3(-kFar), Vec3(kFar)), 0);
-    for (const Vec3& corner : {cell.content.lower, cell.content.upper}) texels.emplace_back(corner, 0);
-    if (!cell.content.empty()) all.extend(cell.content);
-  }
-  for (const Vec3& corner : {Vec3(-kFar), Vec3(kFar), all.lower, all.upper}) texels.emplace_back(corner, 0);
-  cells_ = float_rows(kCellTexels, texels);
 }
 
 Status ShadePass::set_intensities(const FrameContext& context) {
@@ -132,19 +120,9 @@ Status ShadePass::set_intensities(const FrameContext& context) {
     ORIEL_TRY_VOID(maps_.begin(*scene_, static_cast<int>(context.options.shade.map_side)));
   const GpuScene& scene = context.scene;
   ORIEL_TRY(intensities_, scene_->shine(scene.images().source(), scene.pack().materials, scene.pack().sky));
-  std::vector<Vec4> texels;
-  for (std::size_t l = 0; l < scene_->lights.size(); ++l) {
-    const HemisphereMap& map = scene_->maps[l];
-    const bool sky = scene_->lights[l].source == ScatterSource::kSky;
-    texels.emplace_back(map.from, sky ? -1e-30f : scene_->lights[l].light.disk);
-    texels.emplace_back(intensities_[l], map.squeeze);
-    texels.emplace_back(map.frame[0], map.nearest);
-    texels.emplace_back(map.frame[2], map.farthest);
-  }
-  lights_ = float_rows(kLightTexels, texels);
   serial_ = scene.serial();
   ++version_;
-  return gpu::check_gl("uploading lights for the shade of movers");
+  return light_.set_lights(*scene_, intensities_);
 }
 
 std::vector<LightPass> ShadePass::all_lights() const {
@@ -172,92 +150,43 @@ std::vector<LightPass> ShadePass::passes(const FrameContext& context) const {
   Stopwatch watch(context.options.timed);
   if (settings.work == ShadeWork::kMerged) elements = merge_passes(std::move(elements), settings.lights_a_pass);
   watch.add_to(stats.merge_ms);
-  stats.passes = static_cast<std::uint32_t>(count_passes(elements, settings.lights_a_pass));
+  stats.passes = settings.work == ShadeWork::kLists
+                     ? (elements.empty() ? 0 : 1)
+                     : static_cast<std::uint32_t>(count_passes(elements, settings.lights_a_pass));
   return elements;
 }
 
-Status ShadePass::make_fewer(const ShadeTarget& target, int step) {
-  const int width = (target.light.width() + step - 1) / step, height = (target.light.height() + step - 1) / step;
-  if (few_.light && few_.light.width() == width && few_.light.height() == height &&
-      few_.mask.width() == target.light.width() && few_.mask.height() == target.light.height())
-    return {};
-  few_.depth = gpu::Texture2d(gpu::kDepth32f, width, height, nullptr);
+Status ShadePass::make_fewer(const ShadeTarget& target) {
+  const int width = (target.light.width() + kStep - 1) / kStep, height = (target.light.height() + kStep - 1) / kStep;
+  if (few_.drawn_into == target.light.name()) return {};
   few_.surfaces = gpu::Texture2d(gpu::kRgba32ui, width, height, nullptr);
   few_.light = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
   few_.mask = gpu::Texture2d(gpu::kR8, target.light.width(), target.light.height(), nullptr);
-  ORIEL_TRY(few_.surfaces_target, gpu::Framebuffer::create("few surfaces", &few_.surfaces, &few_.depth));
+  ORIEL_TRY(few_.surfaces_target, gpu::Framebuffer::create("few surfaces", &few_.surfaces, nullptr));
   ORIEL_TRY(few_.light_target, gpu::Framebuffer::create("few lights", &few_.light, nullptr));
   const std::array<const gpu::Texture2d*, 2> both{&target.light, &few_.mask};
   ORIEL_TRY(few_.between_target, gpu::Framebuffer::create("light between", both));
+  few_.drawn_into = target.light.name();
   return gpu::check_gl("making the pictures of the shade of movers");
 }
 
-// The numbers of each pass: cells, then lights.
-void ShadePass::upload_list(std::span<const LightPass> passes) {
-  std::vector<std::uint32_t> list;
-  for (const LightPass& pass : passes) {
-    list.insert(list.end(), pass.cells.begin(), pass.cells.end());
-    list.insert(list.end(), pass.lights.begin(), pass.lights.end());
-  }
-  const int rows = std::max(static_cast<int>((list.size() + kListWidth - 1) / kListWidth), 1);
-  list.resize(static_cast<std::size_t>(rows) * kListWidth, 0);
-  if (list_ && list_.height() >= rows)
-    list_.upload(0, 0, rows, list.data());
-  else
-    list_ = gpu::Texture2d(gpu::kR32ui, kListWidth, rows, list.data());
-}
-
-// Where a pixel of a picture of fewer is the middle of the pixel that it stands for: scale and offset, in the whole
-// view's coordinates from -1 to 1.
-Vec4 view_of_fewer(const gpu::Texture2d& all, const gpu::Texture2d& fewer, int step) {
-  const Vec2 whole(all.width(), all.height()), few(fewer.width(), fewer.height());
-  const Vec2 scale = whole / (static_cast<float>(step) * few);
-  const float off = static_cast<float>(step / 2) + 0.5f - 0.5f * static_cast<float>(step);
-  return {scale, scale - 2 * off / (static_cast<float>(step) * few) - 1.0f};
-}
-
-void ShadePass::draw_passes(const FrameContext& context, const gpu::Texture2d& surfaces, const gpu::Texture2d* mask,
-                            const Vec4& view) const {
-  gpu::RasterState state;
-  state.blend = gpu::Blend::kAdd;
-  state.cull = gpu::Cull::kFront;  // one layer of pixels, from within too
-  gpu::apply(state);
+// Light at few pixels, and between them; what is left is marked.
+void ShadePass::draw_fewer(const FrameContext& context, const ShadeTarget& target) const {
+  constexpr GLfloat kNothing[] = {0, 0, 0, 0};
+  gpu::apply({});
   glBindVertexArray(no_vertices_.name());
-  light_.use();
-  light_.set("u_clip_from_pack", context.view.clip_from_pack);
-  light_.set("u_view", view);
-  light_.set("u_surfaces", kSurfaceUnit);
-  light_.set("u_mask", kMaskUnit);
-  light_.set("u_masked", mask != nullptr ? 1 : 0);
-  light_.set("u_lights", kLightsUnit);
-  light_.set("u_list", kListUnit);
-  light_.set("u_cells", kCellsUnit);
-  light_.set("u_mover_depth", kShadowUnit);
-  light_.set("u_still_depth", kStaticUnit);
-  light_.set("u_mover_side", static_cast<float>(maps_.side()));
-  surfaces.bind(kSurfaceUnit);
-  if (mask != nullptr) mask->bind(kMaskUnit);
-  lights_.bind(kLightsUnit), list_.bind(kListUnit), cells_.bind(kCellsUnit);
-  maps_.movers().bind(kShadowUnit), maps_.still().bind(kStaticUnit);
-  const auto each = static_cast<int>(std::max(context.options.shade.lights_a_pass, 1u));
-  int at = 0;
-  for (const LightPass& pass : passes_) {
-    const int cells = static_cast<int>(pass.cells.size()), lights = static_cast<int>(pass.lights.size());
-    light_.set("u_first_cell", at);
-    for (int first = 0; first < lights; first += each) {
-      light_.set("u_first_light", at + cells + first);
-      light_.set("u_light_count", std::min(each, lights - first));
-      glDrawArraysInstanced(GL_TRIANGLES, 0, 36, cells);
-      ++context.stats.draws;
-    }
-    at += cells + lights;
-  }
-}
-
-void ShadePass::draw_between(const ShadeTarget& target, int step) const {
+  few_.surfaces_target.bind();
+  glViewport(0, 0, few_.light.width(), few_.light.height());
+  fewer_.use();
+  fewer_.set("u_surfaces", kSurfaceUnit);
+  fewer_.set("u_step", kStep);
+  target.surfaces.bind(kSurfaceUnit);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  few_.light_target.bind();
+  glClearBufferfv(GL_COLOR, 0, kNothing);
+  light_.draw(context.view, maps_, {few_.surfaces, nullptr, view_of_fewer(target.light, few_.light)}, context.stats);
   few_.between_target.bind();
   glViewport(0, 0, target.light.width(), target.light.height());
-  constexpr GLfloat kNothing[] = {0, 0, 0, 0};
   gpu::RasterState state;
   state.blend = gpu::Blend::kAdd;
   gpu::apply(state);
@@ -266,16 +195,28 @@ void ShadePass::draw_between(const ShadeTarget& target, int step) const {
   between_.set("u_surfaces", kSurfaceUnit);
   between_.set("u_fewer", kFewerUnit);
   between_.set("u_light", kFewerLightUnit);
-  between_.set("u_step", step);
+  between_.set("u_step", kStep);
   target.surfaces.bind(kSurfaceUnit);
   few_.surfaces.bind(kFewerUnit);
   few_.light.bind(kFewerLightUnit);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+// Of the lights that movers may block anywhere in view.
+std::size_t ShadePass::refresh_maps(const FrameContext& context, std::span<const PlacedMover> movers,
+                                    std::span<const LightPass> passes) {
+  std::vector<std::uint8_t> wanted(scene_->lights.size(), 0);
+  for (const LightPass& pass : passes)
+    for (const std::uint32_t l : pass.lights) wanted[l] = 1;
+  std::vector<ShadeMaps::Wanted> maps;
+  for (std::uint32_t l = 0; l < wanted.size(); ++l)
+    if (wanted[l] != 0) maps.push_back({l, max_component(intensities_[l])});
+  return maps_.refresh(maps, movers, context.options.shade.maps_a_frame, context.stats);
+}
+
 Status ShadePass::draw(const FrameContext& context, std::span<const PlacedMover> movers, const ShadeTarget& target) {
-  ShadeStats& stats = context.stats.shade;
   const ShadeSettings& settings = context.options.shade;
+  ShadeStats& stats = context.stats.shade;
   stats.lights = static_cast<std::uint32_t>(scene_->lights.size());
   stats.prepare_s = scene_->seconds;
   Stopwatch watch(context.options.timed);
@@ -283,43 +224,23 @@ Status ShadePass::draw(const FrameContext& context, std::span<const PlacedMover>
   spheres_.resize(known, Vec4(0, 0, 0, -1));
   for (std::uint32_t m = 0; m < known; ++m)
     if (spheres_[m] != movers[m].sphere) blocked_->move(m, spheres_[m] = movers[m].sphere);
-  passes_ = passes(context);
+  std::vector<LightPass> drawn = passes(context);
   watch.add_to(stats.cells_ms);
   stats.cells_ms -= stats.merge_ms;
-  std::vector<std::uint8_t> wanted(scene_->lights.size(), 0);
-  for (const LightPass& pass : passes_)
-    for (const std::uint32_t l : pass.lights) wanted[l] = 1;
-  std::vector<ShadeMaps::Wanted> maps;
-  for (std::uint32_t l = 0; l < wanted.size(); ++l)
-    if (wanted[l] != 0) maps.push_back({l, max_component(intensities_[l])});
-  late_ = maps_.refresh(maps, movers.first(known), settings.maps_a_frame, context.stats);
-  stats.late = static_cast<std::uint32_t>(late_);
+  late_ = refresh_maps(context, movers.first(known), drawn);
   if (late_ > 0) ++version_;
+  stats.late = static_cast<std::uint32_t>(late_);
   watch.add_to(stats.maps_ms);
-  if (passes_.empty()) return {};
-  upload_list(passes_);
-  if (settings.work >= ShadeWork::kFewPixels) {
-    const int step = kStep;
-    ORIEL_TRY_VOID(make_fewer(target, step));
-    few_.surfaces_target.bind();
-    glViewport(0, 0, few_.light.width(), few_.light.height());
-    gpu::apply({});
-    glClearBufferuiv(GL_COLOR, 0, kNoSurfaces);
-    glBindVertexArray(no_vertices_.name());
-    fewer_.use();
-    fewer_.set("u_surfaces", kSurfaceUnit);
-    fewer_.set("u_step", step);
-    target.surfaces.bind(kSurfaceUnit);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    few_.light_target.bind();
-    glClearColor(0, 0, 0, 0);
-    glClear(GL_COLOR_BUFFER_BIT);
-    draw_passes(context, few_.surfaces, nullptr, view_of_fewer(target.light, few_.light, step));
-    draw_between(target, step);
+  if (drawn.empty()) return {};
+  ORIEL_TRY_VOID(light_.set_passes(std::move(drawn), settings.work == ShadeWork::kLists, settings.lights_a_pass));
+  const bool few = settings.work >= ShadeWork::kFewPixels;
+  if (few) {
+    ORIEL_TRY_VOID(make_fewer(target));
+    draw_fewer(context, target);
   }
   target.framebuffer.bind();
   glViewport(0, 0, target.light.width(), target.light.height());
-  draw_passes(context, target.surfaces, settings.work >= ShadeWork::kFewPixels ? &few_.mask : nullptr, {1, 1, 0, 0});
+  light_.draw(context.view, maps_, {target.surfaces, few ? &few_.mask : nullptr}, context.stats);
   watch.add_to(stats.light_ms);
   return gpu::check_gl("drawing the shade of movers");
 }

@@ -9,8 +9,7 @@
 #include <optional>
 
 #include "player/movers/blocked_lights.h"
-#include "player/movers/light_passes.h"
-#include "player/movers/shade_maps.h"
+#include "player/movers/shade_draw.h"
 
 namespace oriel {
 
@@ -43,30 +42,28 @@ class ShadePass {
   struct Work;  // in the background
   bool is_done() const;
   struct Fewer {
-    gpu::Texture2d depth, surfaces, light, mask;
+    gpu::Texture2d surfaces, light, mask;
     gpu::Framebuffer surfaces_target, light_target, between_target;
+    GLuint drawn_into = 0;  // ShadeTarget::light
   };
   Status take(ShadeScene scene, const FrameContext& context);
   Status set_intensities(const FrameContext& context);
-  void upload_cells();
   std::vector<LightPass> passes(const FrameContext& context) const;
   std::vector<LightPass> all_lights() const;
-  Status make_fewer(const ShadeTarget& target, int step);
-  void draw_passes(const FrameContext& context, const gpu::Texture2d& surfaces, const gpu::Texture2d* mask,
-                   const Vec4& view) const;
-  void draw_between(const ShadeTarget& target, int step) const;
-  void upload_list(std::span<const LightPass> passes);
+  std::size_t refresh_maps(const FrameContext& context, std::span<const PlacedMover> movers,
+                           std::span<const LightPass> passes);
+  Status make_fewer(const ShadeTarget& target);
+  void draw_fewer(const FrameContext& context, const ShadeTarget& target) const;
 
-  gpu::Program light_, fewer_, between_;
+  ShadeDraw light_;
+  gpu::Program fewer_, between_;
   gpu::VertexArray no_vertices_;
   ShadeMaps maps_;
   std::shared_ptr<const ShadeScene> scene_;
   std::optional<BlockedLights> blocked_;
-  std::vector<Vec4> spheres_;  // of movers, as blocked_ knows them
-  std::vector<Vec3> intensities_;
-  gpu::Texture2d lights_, cells_, list_;
+  std::vector<Vec4> spheres_;      // of movers, as blocked_ knows them
+  std::vector<Vec3> intensities_;  // by light
   Fewer few_;
-  std::vector<LightPass> passes_;  // of the last draw()
   std::unique_ptr<Work> work_;
   std::uint64_t geometry_ = 0, serial_ = 0, version_ = 0;  // of the scene: whose shape, whose light
   std::uint32_t wanted_lights_ = 0;

@@ -40,14 +40,15 @@ enum class MoverShadows { kMaps, kTextures };
 
 // How the shade of movers in the light from everywhere is found, for comparison: each light at each pixel; those that
 // movers may block in a cell of space, at its pixels (Barczak 2006, section 4.3.1); likewise at one of sixteen pixels,
-// and at all of them where surfaces end (4.3.3); likewise, cells with like lights drawn together (4.3.5).
-enum class ShadeWork { kEachLight, kCells, kFewPixels, kMerged };
+// and at all of them where surfaces end (4.3.3); likewise, cells with like lights drawn together (4.3.5); or, in place
+// of these passes, each pixel finds its cell's lights by itself.
+enum class ShadeWork { kEachLight, kCells, kFewPixels, kMerged, kLists };
 struct ShadeSettings {
   std::uint32_t lights = 128;  // that stand for what surfaces send out, and as many for the sky; 0: no such shade
-  ShadeWork work = ShadeWork::kMerged;
-  std::uint32_t lights_a_pass = 32;  // 7 on the hardware of 2006
-  bool every_pixel = false;          // of the frame, else of one of half its size
-  std::uint32_t map_side = 128;      // texels of a light's map of the movers
+  ShadeWork work = ShadeWork::kLists;
+  std::uint32_t lights_a_pass = 7;  // as published; lists are one pass
+  bool every_pixel = false;         // of the frame, else of one of half its size
+  std::uint32_t map_side = 128;     // texels of a light's map of the movers
   // Maps that are drawn in a frame, at most, while movers move; 0: all that are late.
   std::uint32_t maps_a_frame = 0;
 

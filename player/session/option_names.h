@@ -39,7 +39,8 @@ inline const std::map<std::string, MoverShadows> kMoverShadows{{"maps", MoverSha
 inline const std::map<std::string, ShadeWork> kShadeWorks{{"each", ShadeWork::kEachLight},
                                                           {"cells", ShadeWork::kCells},
                                                           {"few", ShadeWork::kFewPixels},
-                                                          {"merged", ShadeWork::kMerged}};
+                                                          {"merged", ShadeWork::kMerged},
+                                                          {"lists", ShadeWork::kLists}};
 inline const std::map<std::string, bool> kShadePixels{{"half", false}, {"all", true}};
 
 inline const std::map<std::string, LiveMode> kLiveModes{

@@ -1,6 +1,6 @@
 // Boxes around cells of space, whatever lies beyond the near and far planes.
 uniform mat4 u_clip_from_pack;
-uniform usampler2D u_list;  // numbers, kListWidth a row
+uniform usampler2D u_list;  // numbers, row by row
 uniform int u_first_cell;   // of this pass, into the list
 uniform sampler2D u_cells;  // by row: the cell's lower and upper corner, its box's
 uniform vec4 u_view;        // scale and offset of the picture's place in the view
