@@ -1,6 +1,7 @@
 #include "formats/query/scattered_lights.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -16,6 +17,8 @@ constexpr std::uint32_t kRays = 1 << 16;  // that look around
 constexpr std::size_t kBlocks = 2048;     // of sources, that rays tell apart
 constexpr float kBefore = 0.95f;          // of the way to what is around
 constexpr std::uint32_t kMostDirections = 4096;
+constexpr float kFewer = 0.95f;     // a step towards the number that is wanted
+constexpr std::size_t kRuns = 64;   // of rays, for threads
 constexpr int kPiecesOfScene = 64;  // shining triangles are cut until they are so much smaller than the scene
 constexpr int kMostCuts = 32;       // along a side of a triangle
 
@@ -69,6 +72,24 @@ Vec3 even_direction(std::uint32_t i, std::uint32_t count) {
   const float z = 1 - (2 * static_cast<float>(i) + 1) / static_cast<float>(count);
   const float r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * fraction(i * 0.6180339887498949);
   return {r * std::cos(phi), z, r * std::sin(phi)};
+}
+
+// Of so many even directions those that are nearest to one of the rays that see the sky.
+std::vector<Vec3> open_directions(std::span<const Vec3> rays, std::uint32_t all) {
+  std::vector<Vec3> directions;
+  for (std::uint32_t i = 0; i < all; ++i) directions.push_back(even_direction(i, all));
+  std::vector<std::uint8_t> open(all, 0);
+  for_each_parallel(kRuns, core_count(), [&](std::size_t run) {
+    for (std::size_t r = run; r < rays.size(); r += kRuns) {
+      const auto nearer = [&](const Vec3& a, const Vec3& b) { return glm::dot(a, rays[r]) < glm::dot(b, rays[r]); };
+      const auto nearest = std::ranges::max_element(directions, nearer) - directions.begin();
+      std::atomic_ref<std::uint8_t>{open[static_cast<std::size_t>(nearest)]}.store(1);
+    }
+  });
+  std::vector<Vec3> out;
+  for (std::uint32_t i = 0; i < all; ++i)
+    if (open[i] != 0) out.push_back(directions[i]);
+  return out;
 }
 
 // Texels reach over the borders of their charts: each part's are as large together as it is.
@@ -243,24 +264,21 @@ void ScatterSources::draw_surfaces(const Seen& seen, std::uint32_t count, std::v
   }
 }
 
-// Even directions, of which those are left out from which no ray saw the sky.
+// The edges of what is open touch more directions than its share is: then there are fewer in all.
 void ScatterSources::draw_sky(const Seen& seen, const Vec3& sky, std::uint32_t count,
                               std::vector<ScatteredLight>& out) const {
   const float share = static_cast<float>(seen.open.size()) / kRays;
-  const auto all = std::min(static_cast<std::uint32_t>(static_cast<float>(count) / share), kMostDirections);
-  std::vector<std::uint32_t> rays(all, 0);
-  std::vector<Vec3> directions;
-  for (std::uint32_t i = 0; i < all; ++i) directions.push_back(even_direction(i, all));
-  for (const Vec3& way : seen.open) {
-    const auto nearer = [&](const Vec3& a, const Vec3& b) { return glm::dot(a, way) < glm::dot(b, way); };
-    ++rays[static_cast<std::size_t>(std::ranges::max_element(directions, nearer) - directions.begin())];
+  auto all = std::clamp(static_cast<std::uint32_t>(static_cast<float>(count) / share), 1u, kMostDirections);
+  std::vector<Vec3> open = open_directions(seen.open, all);
+  while (open.size() > count && all > 1) {
+    all = std::max(static_cast<std::uint32_t>(kFewer * all * static_cast<float>(count) / open.size()), 1u);
+    open = open_directions(seen.open, all);
   }
   const float distance = kSkyDistance * 0.5f * glm::length(upper_ - lower_);
-  const float solid_angle = 4 * kPi / static_cast<float>(std::max(all, 1u));
-  for (std::uint32_t i = 0; i < all; ++i) {
-    if (rays[i] == 0) continue;
+  const float solid_angle = 4 * kPi / static_cast<float>(all);
+  for (const Vec3& direction : open) {
     ScatteredLight light;
-    light.light.position = seen.middle + distance * directions[i];
+    light.light.position = seen.middle + distance * direction;
     light.light.intensity = sky * (solid_angle * distance * distance);
     light.source = ScatterSource::kSky;
     out.push_back(light);

@@ -78,7 +78,9 @@ bool ShadePass::has_news() const {
 }
 
 Result<bool> ShadePass::prepare(const FrameContext& context, std::span<const PlacedMover> movers) {
-  const std::uint32_t lights = context.options.shade.lights;
+  GLint layers = 0;  // of a light each
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+  const std::uint32_t lights = std::min(context.options.shade.lights, static_cast<std::uint32_t>(layers));
   if (lights == 0 || movers.empty() || context.scene.pack().lightmaps.empty()) return false;
   const GpuScene& scene = context.scene;
   const bool in_background = scene.images().in_background();
@@ -221,6 +223,7 @@ Status ShadePass::draw(const FrameContext& context, std::span<const PlacedMover>
   stats.prepare_s = scene_->seconds;
   Stopwatch watch(context.options.timed);
   const std::size_t known = std::min<std::size_t>(movers.size(), BlockedLights::kMostMovers);
+  for (std::size_t m = known; m < spheres_.size(); ++m) blocked_->remove(static_cast<std::uint32_t>(m));
   spheres_.resize(known, Vec4(0, 0, 0, -1));
   for (std::uint32_t m = 0; m < known; ++m)
     if (spheres_[m] != movers[m].sphere) blocked_->move(m, spheres_[m] = movers[m].sphere);

@@ -37,6 +37,8 @@ class Renderer {
   FloatImage read_frame() const;
   // A picture as the frame, of that kind. Error kUsage where it exceeds the device.
   Status take_light(const FloatImage& rgba);
+  // Whether a frame of the same view would show more than the last one did.
+  bool has_news() const { return bright_pass_.has_news(); }
   IVec2 frame_size() const { return frame_ ? IVec2(frame_->light.width(), frame_->light.height()) : IVec2(0); }
   // By pixel of the last frame, row 0 at the top: the material (into Pack::materials) of the reflector, planar or
   // curved, that shows its image there; kMoverPixel: a mover; -1: no opaque reflector.

@@ -5,7 +5,8 @@
 namespace oriel {
 namespace {
 
-constexpr int kLeastSide = 16;  // pixels of a coarse frame
+constexpr std::uint32_t kShadeMaps = 48;  // of movers, drawn anew in a coarse frame
+constexpr int kLeastSide = 16;            // pixels of a coarse frame
 
 bool is_software(const std::string& renderer) {
   return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos ||
@@ -28,6 +29,7 @@ FrameOptions looks_of(const Session& session) {
 
 FrameOptions coarse_options(FrameOptions options, bool few_reflections) {
   options.coarse = true;
+  options.shade.maps_a_frame = kShadeMaps;
   options.few_reflections = few_reflections;
   options.samples = 1;
   options.maps_per_element = std::min(options.maps_per_element, 1);

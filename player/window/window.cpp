@@ -157,7 +157,7 @@ class Loop {
     ORIEL_TRY(session_.frame.lamps, lamps_at(scene_->pack(), session_.moves));
     view_ = view_of(width, height);
     load_images();
-    if (scene_->has_live_news()) paced_.redraw();
+    if (scene_->has_live_news() || renderer_.has_news()) paced_.redraw();
     const IVec2 window(width, height);
     drawn_ = paced_.choose({session_, window, scene_->images().state().used, meter_.loading.busy, beside_.has_value()});
     if (drawn_ != Pace::Draw::kKeep) {
