@@ -108,7 +108,6 @@ void ShadeDraw::bind(const gpu::Program& program, const ShadeMaps& maps, const S
   program.set("u_list", kListUnit);
   program.set("u_mover_depth", kShadowUnit);
   program.set("u_still_depth", kStaticUnit);
-  program.set("u_mover_side", static_cast<float>(maps.side()));
   seen.surfaces.bind(kSurfaceUnit);
   if (seen.mask != nullptr) seen.mask->bind(kMaskUnit);
   lights_.bind(kLightsUnit), list_.bind(kListUnit);

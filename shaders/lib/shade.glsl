@@ -7,7 +7,6 @@ uniform sampler2D u_lights;
 uniform usampler2D u_list;  // numbers, row by row
 uniform sampler2DArrayShadow u_mover_depth;  // by light
 uniform sampler2DArrayShadow u_still_depth;
-uniform float u_mover_side;  // texels
 
 // A light that stands for surfaces (formats/query/scattered_lights.h), and its maps.
 struct ShadeLight {
@@ -55,12 +54,10 @@ float passes(sampler2DArrayShadow map, int layer, ShadeLight light, vec3 local) 
   return texture(map, vec4(place.xy, float(layer), place.z));
 }
 
-// Share of the light that movers take. A point leaves its surface by the width of a texel of their map there.
+// Share of the light that movers take. The maps are of movers alone, so that no surface shades itself in them.
 float taken_of(int layer, ShadeLight light, LitSurface surface) {
-  vec3 towards = normalize(light.from - surface.position), local = local_of(light, surface.position);
-  float wide = 2.0 / u_mover_side * height_of(local);
-  vec3 off = wide * (surface.normal * (2.0 - dot(surface.normal, towards)) + towards);
-  float taken = 1.0 - passes(u_mover_depth, layer, light, local_of(light, surface.position + off));
+  vec3 local = local_of(light, surface.position);
+  float taken = 1.0 - passes(u_mover_depth, layer, light, local);
   return taken > 0.0 ? taken * passes(u_still_depth, layer, light, local) : 0.0;
 }
 
