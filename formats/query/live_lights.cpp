@@ -212,12 +212,6 @@ std::optional<LampScene::LitPlace> LampScene::lit_place(const Vec3& from, const 
                   from + hit->distance * direction, normal};
 }
 
-std::optional<LampScene::Surface> LampScene::first_surface(const Vec3& from, const Vec3& direction) const {
-  const auto hit = still_.first(from, direction);
-  if (!hit) return std::nullopt;
-  return Surface{from + hit->distance * direction, facing_normal(*hit, direction), hit->distance};
-}
-
 bool LampScene::sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack, Blockers& last) const {
   if (still_.blocks(from, to, last.still)) return false;
   return pieces_.empty() ||

@@ -89,7 +89,11 @@ class LampScene {
     Vec3 position{0}, normal{0};  // normal: unit, towards where the ray came from; 0: its back, which reflects nothing
     float distance = 0;           // over the direction's length
   };
-  std::optional<Surface> first_surface(const Vec3& from, const Vec3& direction) const;
+  std::optional<Surface> first_surface(const Vec3& from, const Vec3& direction) const {
+    const auto hit = still_.first(from, direction);
+    if (!hit) return std::nullopt;
+    return Surface{from + hit->distance * direction, facing_normal(*hit, direction), hit->distance};
+  }
   // What was last in the way of a light; of the scene and of the lamp. It saves time alone.
   struct Blockers {
     std::uint32_t still = ~0u, lamp = ~0u;

@@ -12,6 +12,7 @@
 namespace oriel {
 namespace {
 
+constexpr float kLeastShare = 0.5f;       // of what rays would find if nothing were hidden
 constexpr float kSkyDistance = 20;        // over the scene's radius: from there light is as good as parallel
 constexpr std::uint32_t kRays = 1 << 16;  // that look around
 constexpr std::size_t kBlocks = 2048;     // of sources, that rays tell apart
@@ -109,6 +110,7 @@ std::vector<float> area_factors(const Mesh& mesh, std::span<const std::uint32_t>
 struct ScatterSources::Seen {
   std::vector<float> share;  // by block of sources: of the rays, over its area
   std::vector<Vec3> open;    // directions of those that meet nothing
+  std::span<const Vec4> places;
   Vec3 middle{0};            // of the places
   float radiance = 0;        // that rays bring from surfaces, in the mean over all of them
 };
@@ -226,6 +228,7 @@ ScatterSources::Seen ScatterSources::look_around(const LampScene& around, std::s
       met[ray] = static_cast<std::uint32_t>(nearest(surface->position, surface->normal) / block());
   });
   Seen seen;
+  seen.places = places;
   seen.share.assign(sources_.size() / block() + 1, 0);
   for (const Vec4& place : places) seen.middle += Vec3(place) / static_cast<float>(places.size());
   for (std::uint32_t ray = 0; ray < kRays; ++ray) {
@@ -233,16 +236,32 @@ ScatterSources::Seen ScatterSources::look_around(const LampScene& around, std::s
     if (met[ray] < seen.share.size()) seen.share[met[ray]] += 1.0f / kRays;
   }
   for (std::size_t b = 0; b < seen.share.size(); ++b) {
-    float area = 0, flux = 0;
-    for (std::size_t i = b * block(); i < std::min(sources_.size(), (b + 1) * block()); ++i)
-      area += sources_[i].area, flux += luminance(sources_[i].flux);
+    float texels = 0, pieces = 0, flux = 0;  // m² of what reflects, and of what shines, which is the same surface
+    for (std::size_t i = b * block(); i < std::min(sources_.size(), (b + 1) * block()); ++i) {
+      (sources_[i].kind == ScatterSource::kTexel ? texels : pieces) += sources_[i].area;
+      flux += luminance(sources_[i].flux);
+    }
+    const float area = std::max(texels, pieces);
     seen.share[b] = area > 0 ? seen.share[b] / area : 0.0f;
     seen.radiance += seen.share[b] * flux / kPi;
   }
   return seen;
 }
 
-// Systematic sampling along the order of places, each as often as it brings light.
+// As Seen::share, if nothing were between.
+float ScatterSources::open_share(const Source& source, std::span<const Vec4> places) {
+  float sum = 0;
+  for (const Vec4& place : places) {
+    const Vec3 to = Vec3(place) - source.position;
+    const float d2 = std::max({length2(to), place.w * place.w, 1e-12f});
+    sum += std::max(glm::dot(source.normal, to), 0.0f) / (4 * kPi * d2 * std::sqrt(d2));
+  }
+  return sum / static_cast<float>(places.size());
+}
+
+// Systematic sampling along the order of places, each as often as it brings light. Of a block that is hidden but for a
+// corner that corner is drawn too rarely, and would stand for too much: what it would be if nothing were hidden bounds
+// that.
 void ScatterSources::draw_surfaces(const Seen& seen, std::uint32_t count, std::vector<ScatteredLight>& out) const {
   const double each = double{seen.radiance} * kPi / count;
   if (!(each > 0) || !std::isfinite(each)) return;
@@ -255,7 +274,8 @@ void ScatterSources::draw_surfaces(const Seen& seen, std::uint32_t count, std::v
     std::uint32_t times = 0;
     while (drawn < count && sum >= (drawn + 0.5) * each) ++drawn, ++times;
     if (times == 0) continue;
-    const auto stands_for = static_cast<float>(times * each / own);  // times itself
+    const double least = kLeastShare * open_share(s, seen.places) * luminance(s.flux);
+    const auto stands_for = static_cast<float>(times * each / std::max(own, least));  // times itself
     ScatteredLight light;
     light.light.position = s.position, light.light.normal = s.normal;
     light.light.intensity = stands_for * s.flux / kPi, light.light.disk = stands_for * s.area / kPi;

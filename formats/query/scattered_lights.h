@@ -61,6 +61,7 @@ class ScatterSources {
   std::uint64_t code_of(const Vec3& position, const Vec3& normal) const;
   std::size_t block() const;  // sources of one
   std::size_t nearest(const Vec3& position, const Vec3& normal) const;
+  static float open_share(const Source& source, std::span<const Vec4> places);
   Seen look_around(const LampScene& around, std::span<const Vec4> places) const;
   void draw_surfaces(const Seen& seen, std::uint32_t count, std::vector<ScatteredLight>& out) const;
   void draw_sky(const Seen& seen, const Vec3& sky, std::uint32_t count, std::vector<ScatteredLight>& out) const;

@@ -137,7 +137,7 @@ Status print_errors(const Bench& bench) {
   for (const std::uint32_t count : {25u, 50u, 100u, 128u, 300u}) {
     std::printf("| %u |", count);
     for (const std::uint32_t side : kSides) {
-      ShadeSettings shade = settings_of(ShadeWork::kMerged, count);
+      ShadeSettings shade = settings_of(ShadeWork::kLists, count);
       shade.map_side = side, shade.lights_a_pass = kMany;
       ORIEL_TRY(const std::vector<double> found, luminances(bench, shade));
       double squares = 0, taken = 0, pixels = 0;
