@@ -88,11 +88,13 @@ class LampScene {
   struct Surface {
     Vec3 position{0}, normal{0};  // normal: unit, towards where the ray came from; 0: its back, which reflects nothing
     float distance = 0;           // over the direction's length
+    std::uint32_t material = 0;
   };
   std::optional<Surface> first_surface(const Vec3& from, const Vec3& direction) const {
     const auto hit = still_.first(from, direction);
     if (!hit) return std::nullopt;
-    return Surface{from + hit->distance * direction, facing_normal(*hit, direction), hit->distance};
+    return Surface{from + hit->distance * direction, facing_normal(*hit, direction), hit->distance,
+                   part_of(*hit).material};
   }
   // What was last in the way of a light; of the scene and of the lamp. It saves time alone.
   struct Blockers {

@@ -1,6 +1,7 @@
 #include "formats/query/scattered_lights.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -15,8 +16,9 @@ namespace {
 constexpr float kLeastShare = 0.5f;       // of what rays would find if nothing were hidden
 constexpr float kSkyDistance = 20;        // over the scene's radius: from there light is as good as parallel
 constexpr std::uint32_t kRays = 1 << 16;  // that look around
-constexpr std::size_t kBlocks = 2048;     // of sources, that rays tell apart
-constexpr float kBefore = 0.95f;          // of the way to what is around
+constexpr std::size_t kNone = ~std::size_t{0};
+constexpr std::size_t kBlocks = 2048;  // of sources, that rays tell apart
+constexpr float kBefore = 0.95f;       // of the way to what is around
 constexpr std::uint32_t kMostDirections = 4096;
 constexpr float kFewer = 0.95f;     // a step towards the number that is wanted
 constexpr std::size_t kRuns = 64;   // of rays, for threads
@@ -111,8 +113,8 @@ struct ScatterSources::Seen {
   std::vector<float> share;  // by block of sources: of the rays, over its area
   std::vector<Vec3> open;    // directions of those that meet nothing
   std::span<const Vec4> places;
-  Vec3 middle{0};            // of the places
-  float radiance = 0;        // that rays bring from surfaces, in the mean over all of them
+  Vec3 middle{0};      // of the places
+  float radiance = 0;  // that rays bring from surfaces, in the mean over all of them
 };
 
 ScatterSources::ScatterSources(const ScatteredScene& in) {
@@ -122,7 +124,7 @@ ScatterSources::ScatterSources(const ScatteredScene& in) {
   add_emission(in, glm::length(upper_ - lower_) / kPiecesOfScene);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   for (std::uint32_t i = 0; i < sources_.size(); ++i)
-    order.emplace_back(code_of(sources_[i].position, sources_[i].normal), i);
+    order.emplace_back(code_of(sources_[i].kind, sources_[i].position, sources_[i].normal), i);
   std::ranges::sort(order);
   std::vector<Source> ordered;
   for (const auto& [code, i] : order) ordered.push_back(sources_[i]), codes_.push_back(code);
@@ -172,9 +174,11 @@ void ScatterSources::add_pieces(const Vec3& a, const Vec3& ab, const Vec3& ac, f
 // What shines: of two-sided materials both sides do.
 void ScatterSources::add_emission(const ScatteredScene& in, float longest) {
   const Mesh& mesh = in.scene.mesh();
+  shines_.assign(in.emission.size(), 0);
   for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
     const MeshPart& part = mesh.parts[p];
     if (in.left_out[p] != 0 || luminance(in.emission[part.material]) <= 0) continue;
+    shines_[part.material] = 1;
     for (std::size_t i = 0; i + 2 < part.index_count; i += 3) {
       const Triangle triangle = triangle_of(mesh, part.first_index + i);
       Source like;
@@ -191,16 +195,24 @@ void ScatterSources::add_emission(const ScatteredScene& in, float longest) {
 }
 
 // The side that a surface faces comes first: the two sides of a wall lie together and have nothing in common.
-std::uint64_t ScatterSources::code_of(const Vec3& position, const Vec3& normal) const {
+std::uint64_t ScatterSources::code_of(ScatterSource kind, const Vec3& position, const Vec3& normal) const {
   const Vec3 size = glm::abs(normal);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const auto side = static_cast<std::uint64_t>(2 * axis + (normal[axis] < 0 ? 1 : 0));
-  return side << 60 | morton(position, lower_, max_component(upper_ - lower_));
+  const auto shines = static_cast<std::uint64_t>(kind == ScatterSource::kEmission ? 1 : 0);
+  return shines << 63 | side << 60 | morton(position, lower_, max_component(upper_ - lower_));
 }
 
-std::size_t ScatterSources::nearest(const Vec3& position, const Vec3& normal) const {
-  const auto at = std::ranges::lower_bound(codes_, code_of(position, normal));
-  return std::min(static_cast<std::size_t>(at - codes_.begin()), codes_.size() - 1);
+std::optional<std::size_t> ScatterSources::nearest(ScatterSource kind, const Vec3& position, const Vec3& normal) const {
+  const auto at = std::ranges::lower_bound(codes_, code_of(kind, position, normal)) - codes_.begin();
+  std::optional<std::size_t> best;
+  float least = std::numeric_limits<float>::infinity();
+  for (auto i = std::max<std::ptrdiff_t>(at - 1, 0); i <= at && i < std::ssize(sources_); ++i) {
+    const Source& source = sources_[static_cast<std::size_t>(i)];
+    const float d2 = length2(source.position - position);
+    if (source.kind == kind && d2 < least) best = static_cast<std::size_t>(i), least = d2;
+  }
+  return best;
 }
 
 std::size_t ScatterSources::block() const {
@@ -208,9 +220,9 @@ std::size_t ScatterSources::block() const {
 }
 
 ScatterSources::Seen ScatterSources::look_around(const LampScene& around, std::span<const Vec4> places) const {
-  constexpr std::uint32_t kOpen = ~0u, kBack = ~0u - 1;
-  std::vector<std::uint32_t> met(kRays, kBack);
   std::vector<Vec3> ways(kRays);
+  std::vector<std::array<std::size_t, 2>> met(kRays);  // blocks of what reflects there, and of what shines
+  std::vector<std::uint8_t> open(kRays, 0);
   for_each_parallel(kRays, core_count(), [&](std::size_t ray) {
     const Vec4& place = places[ray % places.size()];
     const auto i = static_cast<double>(ray / places.size());
@@ -222,26 +234,28 @@ ScatterSources::Seen ScatterSources::look_around(const LampScene& around, std::s
     const Vec3 from = Vec3(place) + (before && before->distance < 1 ? kBefore * before->distance : 1.0f) * off;
     ways[ray] = even_direction(static_cast<std::uint32_t>(i * 7919) % kMostDirections, kMostDirections);
     const auto surface = around.first_surface(from, ways[ray]);
-    if (!surface)
-      met[ray] = kOpen;
-    else if (surface->normal != Vec3(0) && !sources_.empty())
-      met[ray] = static_cast<std::uint32_t>(nearest(surface->position, surface->normal) / block());
+    open[ray] = surface ? 0 : 1;
+    met[ray] = {kNone, kNone};
+    if (!surface || surface->normal == Vec3(0)) return;
+    if (const auto texel = nearest(ScatterSource::kTexel, surface->position, surface->normal))
+      met[ray][0] = *texel / block();
+    if (shines_[surface->material] == 0) return;
+    if (const auto piece = nearest(ScatterSource::kEmission, surface->position, surface->normal))
+      met[ray][1] = *piece / block();
   });
   Seen seen;
   seen.places = places;
   seen.share.assign(sources_.size() / block() + 1, 0);
   for (const Vec4& place : places) seen.middle += Vec3(place) / static_cast<float>(places.size());
   for (std::uint32_t ray = 0; ray < kRays; ++ray) {
-    if (met[ray] == kOpen) seen.open.push_back(ways[ray]);
-    if (met[ray] < seen.share.size()) seen.share[met[ray]] += 1.0f / kRays;
+    if (open[ray] != 0) seen.open.push_back(ways[ray]);
+    for (const std::size_t b : met[ray])
+      if (b != kNone) seen.share[b] += 1.0f / kRays;
   }
   for (std::size_t b = 0; b < seen.share.size(); ++b) {
-    float texels = 0, pieces = 0, flux = 0;  // m² of what reflects, and of what shines, which is the same surface
-    for (std::size_t i = b * block(); i < std::min(sources_.size(), (b + 1) * block()); ++i) {
-      (sources_[i].kind == ScatterSource::kTexel ? texels : pieces) += sources_[i].area;
-      flux += luminance(sources_[i].flux);
-    }
-    const float area = std::max(texels, pieces);
+    float area = 0, flux = 0;
+    for (std::size_t i = b * block(); i < std::min(sources_.size(), (b + 1) * block()); ++i)
+      area += sources_[i].area, flux += luminance(sources_[i].flux);
     seen.share[b] = area > 0 ? seen.share[b] / area : 0.0f;
     seen.radiance += seen.share[b] * flux / kPi;
   }

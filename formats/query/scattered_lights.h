@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -58,15 +59,16 @@ class ScatterSources {
   void add_texels(const ScatteredScene& in);
   void add_emission(const ScatteredScene& in, float longest);
   void add_pieces(const Vec3& a, const Vec3& ab, const Vec3& ac, float longest, const Source& like);
-  std::uint64_t code_of(const Vec3& position, const Vec3& normal) const;
+  std::uint64_t code_of(ScatterSource kind, const Vec3& position, const Vec3& normal) const;
   std::size_t block() const;  // sources of one
-  std::size_t nearest(const Vec3& position, const Vec3& normal) const;
+  std::optional<std::size_t> nearest(ScatterSource kind, const Vec3& position, const Vec3& normal) const;
   static float open_share(const Source& source, std::span<const Vec4> places);
   Seen look_around(const LampScene& around, std::span<const Vec4> places) const;
   void draw_surfaces(const Seen& seen, std::uint32_t count, std::vector<ScatteredLight>& out) const;
   void draw_sky(const Seen& seen, const Vec3& sky, std::uint32_t count, std::vector<ScatteredLight>& out) const;
 
   std::vector<Source> sources_;
+  std::vector<std::uint8_t> shines_;  // by material
   std::vector<std::uint64_t> codes_;  // of each, ascending
   Vec3 lower_{0}, upper_{0};
 };
