@@ -56,7 +56,7 @@ float spot_factor(float cosine, float cos_inner, float cos_outer) {
 }
 
 bool is_obstacle(const Material& material) {
-  return material.alpha_mode != AlphaMode::kBlend && material.transmission <= 0;
+  return material.alpha_mode != AlphaMode::kBlend && material.transmission <= 0 && !material.unlit;
 }
 
 Vec3 mean_reflectance(std::span<const Vec3> table) {

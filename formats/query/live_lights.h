@@ -63,7 +63,7 @@ struct LiveSurfaces {
 };
 
 // A lamp, and what stands still around it. A pose moves the lamp from where the mesh has it: pack space to pack space.
-// See-through surfaces are no obstacle; cut-outs are obstacles as a whole.
+// See-through and unlit surfaces are no obstacle; cut-outs are obstacles as a whole.
 class LampScene {
  public:
   // Copies positions: the mesh's may change.

@@ -17,8 +17,9 @@ constexpr float kLeastShare = 0.5f;       // of what rays would find if nothing 
 constexpr float kSkyDistance = 20;        // over the scene's radius: from there light is as good as parallel
 constexpr std::uint32_t kRays = 1 << 16;  // that look around
 constexpr std::size_t kNone = ~std::size_t{0};
-constexpr std::size_t kBlocks = 2048;  // of sources, that rays tell apart
-constexpr float kBefore = 0.95f;       // of the way to what is around
+constexpr std::size_t kMostSources = 1 << 20;  // texels
+constexpr std::size_t kBlocks = 2048;          // of sources, that rays tell apart
+constexpr float kBefore = 0.95f;               // of the way to what is around
 constexpr std::uint32_t kMostDirections = 4096;
 constexpr float kFewer = 0.95f;     // a step towards the number that is wanted
 constexpr std::size_t kRuns = 64;   // of rays, for threads
@@ -136,8 +137,12 @@ void ScatterSources::add_texels(const ScatteredScene& in) {
   std::vector<std::uint32_t> part_of;
   std::vector<const PagePoint*> point_of;
   std::vector<float> areas;
+  std::size_t points = 0;
+  for (const std::vector<PagePoint>& of_page : in.points) points += of_page.size();
+  const std::size_t step = points / kMostSources + 1;  // those left stand for the others
   for (std::uint32_t p = 0; p < in.pages.size(); ++p)
-    for (const PagePoint& point : in.points[p]) {
+    for (std::size_t i = 0; i < in.points[p].size(); i += step) {
+      const PagePoint& point = in.points[p][i];
       if (point.index >= in.pages[p].irradiance.size()) continue;
       sources_.push_back({point.position, point.normal, Vec3(0), 0, ScatterSource::kTexel, p, point.index});
       areas.push_back(texel_area(mesh, in.pages[p], point.first_index));
@@ -150,8 +155,8 @@ void ScatterSources::add_texels(const ScatteredScene& in) {
       const PagePoint& point = *point_of[i];
       Source& source = sources_[i];
       source.area = areas[i] * factors[part_of[i]];
-      source.flux = source.area * in.pages[source.index].irradiance[point.index] *
-                    in.scene.reflectance(point.part, point.first_index, point.shares);
+      source.lux = in.pages[source.index].irradiance[point.index];
+      source.flux = source.area * source.lux * in.scene.reflectance(point.part, point.first_index, point.shares);
     }
   });
 }
@@ -293,7 +298,7 @@ void ScatterSources::draw_surfaces(const Seen& seen, std::uint32_t count, std::v
     ScatteredLight light;
     light.light.position = s.position, light.light.normal = s.normal;
     light.light.intensity = stands_for * s.flux / kPi, light.light.disk = stands_for * s.area / kPi;
-    light.source = s.kind, light.index = s.index, light.texel = s.texel;
+    light.source = s.kind, light.index = s.index, light.texel = s.texel, light.before = s.lux;
     out.push_back(light);
   }
 }

@@ -23,6 +23,7 @@ struct ScatteredLight {
   ScatterSource source = ScatterSource::kTexel;
   // Whose change its own follows. A texel: page, and place in its irradiance. Emission: material. Sky: nothing.
   std::uint32_t index = 0, texel = 0;
+  Vec3 before{1};  // what it followed then: lux of the texel; else 1
 };
 
 struct ScatteredScene {
@@ -54,6 +55,7 @@ class ScatterSources {
     float area = 0;                        // m²
     ScatterSource kind = ScatterSource::kTexel;
     std::uint32_t index = 0, texel = 0;
+    Vec3 lux{1};  // of a texel
   };
   struct Seen;
   void add_texels(const ScatteredScene& in);

@@ -92,6 +92,7 @@ void BrightPass::Canvas::bind(const gpu::Framebuffer& target) const {
 
 Status BrightPass::make_targets(const FrameContext& context) {
   const int width = context.view.width, height = context.view.height, less = context.options.shade.every_pixel ? 1 : 2;
+  ++targets_;
   ORIEL_TRY_VOID(of_movers_.make(width, height));
   return of_scene_.make((width + less - 1) / less, (height + less - 1) / less);
 }
@@ -328,7 +329,7 @@ Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context
   for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(context, lit));
   take_by_textures(context);
   if (shaded) {
-    const ShadeTarget target{of_scene_.surfaces, of_scene_.change, of_scene_.change_target};
+    const ShadeTarget target{of_scene_.surfaces, of_scene_.change, of_scene_.change_target, targets_};
     ORIEL_TRY_VOID(shade_.draw(context, movers, target));
   }
   known_ = std::move(now);

@@ -25,7 +25,8 @@ namespace oriel {
 // What bright lights change, lux by pixel.
 struct BrightChange {
   MoverChange on_movers;
-  const gpu::Texture2d* on_scene = nullptr;        // what movers take of them; half the view's size, rounded up
+  const gpu::Texture2d* on_scene =
+      nullptr;  // what movers take of them and of all other light; the view's size or half of it
   const gpu::Texture2d* scene_surfaces = nullptr;  // where that is: shaders/lib/lit_surface.glsl
 };
 
@@ -33,7 +34,7 @@ class BrightPass {
  public:
   static Result<BrightPass> create(gpu::Dialect dialect);
 
-  // shown: of the opaque scene. Nothing where bright lights change nothing;
+  // shown: of the opaque scene. Nothing where movers change nothing;
   // what is given holds until the next call. Own framebuffers stay bound. Error kRuntime.
   Result<std::optional<BrightChange>> draw(const FrameContext& context, std::span<const DrawBatch> shown,
                                            std::span<const PlacedMover> movers);
@@ -87,6 +88,7 @@ class BrightPass {
   gpu::Program surface_, shadow_, light_;
   gpu::VertexArray no_vertices_;
   Canvas of_movers_, of_scene_;
+  std::uint64_t targets_ = 0;  // made so often
   Known known_;
 };
 

@@ -5,15 +5,24 @@
 #include "player/scene/surface.h"
 
 namespace oriel {
+namespace {
+
+constexpr int kLeastSide = 16;
+constexpr std::size_t kMostTexels = std::size_t{1} << 26;  // of 4 bytes, in all maps of movers
+
+}  // namespace
 
 Result<ShadeMaps> ShadeMaps::create(gpu::Dialect dialect) {
   ShadeMaps maps;
   ORIEL_TRY(maps.depth_, gpu::Program::create("shade_depth", dialect));
+  ORIEL_TRY(maps.plain_depth_, gpu::Program::create("shade_depth", dialect, "PLAIN"));
   return maps;
 }
 
-Status ShadeMaps::begin(const ShadeScene& scene, int side) {
+Status ShadeMaps::begin(const ShadeScene& scene, std::span<const Mover> movers, int side) {
   const auto layers = static_cast<int>(std::max<std::size_t>(scene.lights.size(), 1));
+  wanted_side_ = side;
+  while (side > kLeastSide && std::size_t(side) * std::size_t(side) * std::size_t(layers) > kMostTexels) side /= 2;
   gpu::TextureOptions options;
   options.min_filter = options.mag_filter = GL_LINEAR;
   options.compare = true;
@@ -24,38 +33,67 @@ Status ShadeMaps::begin(const ShadeScene& scene, int side) {
     still_.upload(0, layer, 0, {kStillSide, kStillSide},
                   &scene.still[static_cast<std::size_t>(layer) * kStillSide * kStillSide]);
   if (!target_) target_ = gpu::Framebuffer::create_for_layers();
+  // Until a map is drawn it holds nothing.
+  target_.bind();
+  gpu::RasterState state;
+  state.depth_test = state.depth_write = true;
+  gpu::apply(state);
+  for (int layer = 0; layer < layers; ++layer) {
+    target_.attach_depth_layer(movers_, layer);
+    glClear(GL_DEPTH_BUFFER_BIT);
+  }
+  if (shapes_.size() != movers.size()) {
+    shapes_.clear();
+    for (const Mover& mover : movers) shapes_.push_back(make_shade_shape(mover));
+  }
   maps_ = scene.maps;
   known_.assign(scene.lights.size(), {});
-  int t = 0, e = 0, k = 0;
-  for (auto& l : scene.lights) {
-    (l.source == ScatterSource::kTexel ? t : l.source == ScatterSource::kSky ? k : e)++;
-  }
   return gpu::check_gl("making shadow maps of many lights");
 }
 
-void ShadeMaps::draw(std::uint32_t light, std::span<const PlacedMover> movers, FrameStats& stats) const {
+void ShadeMaps::draw_face(const GpuScene& scene, const GpuMover& shape, const Face& face, FrameStats& stats) const {
+  for (const DrawBatch& batch : visible_batches(shape.ranges, make_frustum(face.clip_from_object))) {
+    const Material& m = scene.pack().materials[batch.material];
+    const bool plain = cutoff_of(m) < 0;
+    const gpu::Program& program = plain ? plain_depth_ : depth_;
+    program.use();
+    program.set("u_clip_from_object", face.clip_from_object);
+    program.set("u_light_from_object", face.light_from_object);
+    program.set("u_signs", face.signs);
+    if (!plain) {
+      program.set("u_base_texture", kBaseUnit);
+      program.set("u_alpha", m.alpha);
+      program.set("u_alpha_cutoff", cutoff_of(m));
+      scene.albedo(m.base_color_texture).bind(kBaseUnit);
+    }
+    draw_batch(batch, stats);
+  }
+  ++stats.shade.faces;
+}
+
+void ShadeMaps::draw(const GpuScene& scene, std::uint32_t light, std::span<const PlacedMover> movers,
+                     FrameStats& stats) const {
   const HemisphereMap& map = maps_[light];
   target_.attach_depth_layer(movers_, static_cast<int>(light));
   glClear(GL_DEPTH_BUFFER_BIT);
   Mat4 light_from_pack(glm::transpose(map.frame));
   light_from_pack[3] = Vec4(glm::transpose(map.frame) * -map.from, 1);
-  for (const PlacedMover& placed : movers) {
-    glBindVertexArray(placed.mover->vertex_array.name());
-    depth_.set("u_light_from_object", light_from_pack * placed.pack_from_object);
-    for (int face = 0; face < kHemisphereFaces; ++face) {
-      if (!may_touch_face(map, face, placed.sphere)) continue;
-      const Mat4 clip = clip_from_pack(map, face) * placed.pack_from_object;
-      depth_.set("u_clip_from_object", clip);
-      depth_.set("u_signs", face_signs(face));
-      for (const DrawBatch& batch : visible_batches(placed.mover->ranges, make_frustum(clip))) draw_batch(batch, stats);
-      ++stats.shade.faces;
-    }
+  for (std::size_t m = 0; m < movers.size(); ++m) {
+    const PlacedMover& placed = movers[m];
+    const GpuMover& shape = m < shapes_.size() && shapes_[m] ? *shapes_[m] : *placed.mover;
+    glBindVertexArray(shape.vertex_array.name());
+    for (int face = 0; face < kHemisphereFaces; ++face)
+      if (may_touch_face(map, face, placed.sphere))
+        draw_face(scene, shape,
+                  {clip_from_pack(map, face) * placed.pack_from_object, light_from_pack * placed.pack_from_object,
+                   face_signs(face)},
+                  stats);
   }
   ++stats.shade.maps;
 }
 
-std::size_t ShadeMaps::refresh(std::span<const Wanted> wanted, std::span<const PlacedMover> movers, std::size_t most,
-                               FrameStats& stats) {
+std::size_t ShadeMaps::refresh(const FrameContext& context, std::span<const Wanted> wanted,
+                               std::span<const PlacedMover> movers) {
   std::vector<Mat4> poses;
   for (const PlacedMover& placed : movers) poses.push_back(placed.pack_from_object);
   std::vector<std::pair<float, std::uint32_t>> late;
@@ -63,6 +101,7 @@ std::size_t ShadeMaps::refresh(std::span<const Wanted> wanted, std::span<const P
     if (known_[w.light].poses != poses)
       late.emplace_back(-w.brightest * static_cast<float>(++known_[w.light].late), w.light);
   std::ranges::sort(late);
+  const std::size_t most = context.options.shade.maps_a_frame;
   const std::size_t drawn = most == 0 ? late.size() : std::min(most, late.size());
   if (drawn == 0) return late.size();
   target_.bind();
@@ -71,10 +110,9 @@ std::size_t ShadeMaps::refresh(std::span<const Wanted> wanted, std::span<const P
   state.depth_test = state.depth_write = true;
   state.color_write = false;
   gpu::apply(state);
-  depth_.use();
   for (std::size_t i = 0; i < drawn; ++i) {
     const std::uint32_t light = late[i].second;
-    draw(light, movers, stats);
+    draw(context.scene, light, movers, context.stats);
     known_[light] = {poses, 0};
   }
   return late.size() - drawn;

@@ -4,6 +4,7 @@
 #include "player/gpu/framebuffer.h"
 #include "player/movers/mover_pass.h"
 #include "player/movers/shade_scene.h"
+#include "player/movers/shade_shape.h"
 
 namespace oriel {
 
@@ -11,36 +12,42 @@ class ShadeMaps {
  public:
   static Result<ShadeMaps> create(gpu::Dialect dialect);
 
-  // Maps of the movers of `side`² texels a light; all of them are to be drawn anew. Error kRuntime.
-  Status begin(const ShadeScene& scene, int side);
+  // Maps of the movers of `side`² texels a light, fewer where all of them would be more than 256 MB; all of them are to
+  // be drawn anew. movers: the pack's, always the same. Error kRuntime.
+  Status begin(const ShadeScene& scene, std::span<const Mover> movers, int side);
   // Movers at these poses: light by light, what each of them may block.
   struct Wanted {
     std::uint32_t light = 0;
     float brightest = 0;  // its brightest channel, cd
   };
-  // Draws maps in which movers are not where they are drawn, at most so many (0: all): the brightest times the calls
-  // that it is late first, so that none waits for ever (Barczak 2006, section 4.5.3). How many are left. Its own
-  // framebuffer stays bound.
-  std::size_t refresh(std::span<const Wanted> wanted, std::span<const PlacedMover> movers, std::size_t most,
-                      FrameStats& stats);
+  // Draws maps in which movers are not where they are drawn, at most maps_a_frame: the brightest times the calls that
+  // it is late first, so that none waits for ever (Barczak 2006, section 4.5.3). How many are left. Its own framebuffer
+  // stays bound.
+  std::size_t refresh(const FrameContext& context, std::span<const Wanted> wanted, std::span<const PlacedMover> movers);
 
   const gpu::TextureArray& movers() const { return movers_; }
   const gpu::TextureArray& still() const { return still_; }
-  int side() const { return side_; }
+  int wanted_side() const { return wanted_side_; }  // that begin() was asked for
 
  private:
   struct Known {
     std::vector<Mat4> poses;  // of all movers when it was drawn; empty: never
     std::uint32_t late = 0;   // calls since it was wanted
   };
-  void draw(std::uint32_t light, std::span<const PlacedMover> movers, FrameStats& stats) const;
+  struct Face {
+    Mat4 clip_from_object, light_from_object;
+    Vec2 signs;
+  };
+  void draw_face(const GpuScene& scene, const GpuMover& shape, const Face& face, FrameStats& stats) const;
+  void draw(const GpuScene& scene, std::uint32_t light, std::span<const PlacedMover> movers, FrameStats& stats) const;
 
-  gpu::Program depth_;
+  gpu::Program depth_, plain_depth_;
   gpu::Framebuffer target_;
   gpu::TextureArray movers_, still_;
   std::vector<HemisphereMap> maps_;
-  std::vector<Known> known_;  // by light
-  int side_ = 0;
+  std::vector<Known> known_;                     // by light
+  std::vector<std::optional<GpuMover>> shapes_;  // by mover; nothing: as it is
+  int side_ = 0, wanted_side_ = 0;
 };
 
 }  // namespace oriel

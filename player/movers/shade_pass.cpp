@@ -61,12 +61,20 @@ ShadePass::ShadePass() = default;
 
 Result<ShadePass> ShadePass::create(gpu::Dialect dialect) {
   ShadePass pass;
-  ORIEL_TRY(pass.maps_, ShadeMaps::create(dialect));
-  ORIEL_TRY(pass.light_, ShadeDraw::create(dialect));
-  ORIEL_TRY(pass.fewer_, gpu::Program::create("screen_shade_fewer", dialect));
-  ORIEL_TRY(pass.between_, gpu::Program::create("screen_shade_between", dialect));
-  pass.no_vertices_ = gpu::make_vertex_array();
+  pass.dialect_ = dialect;
   return pass;
+}
+
+// Packs without movers need none of it.
+Status ShadePass::make_programs() {
+  if (no_vertices_) return {};
+  ORIEL_TRY(maps_, ShadeMaps::create(dialect_));
+  ORIEL_TRY(light_, ShadeDraw::create(dialect_));
+  ORIEL_TRY(fewer_, gpu::Program::create("screen_shade_fewer", dialect_));
+  ORIEL_TRY(between_, gpu::Program::create("screen_shade_between", dialect_));
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers_);
+  no_vertices_ = gpu::make_vertex_array();
+  return {};
 }
 
 bool ShadePass::is_done() const {
@@ -78,10 +86,14 @@ bool ShadePass::has_news() const {
 }
 
 Result<bool> ShadePass::prepare(const FrameContext& context, std::span<const PlacedMover> movers) {
-  GLint layers = 0;  // of a light each
-  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
-  const std::uint32_t lights = std::min(context.options.shade.lights, static_cast<std::uint32_t>(layers));
-  if (lights == 0 || movers.empty() || context.scene.pack().lightmaps.empty()) return false;
+  late_ = 0;
+  if (context.options.shade.lights == 0 || movers.empty() || context.scene.pack().lightmaps.empty()) {
+    work_.reset(), blocked_.reset(), scene_.reset();
+    geometry_ = 0;
+    return false;
+  }
+  ORIEL_TRY_VOID(make_programs());
+  const std::uint32_t lights = std::min(context.options.shade.lights, static_cast<std::uint32_t>(layers_));
   const GpuScene& scene = context.scene;
   const bool in_background = scene.images().in_background();
   std::vector<Vec4> spheres;
@@ -96,12 +108,14 @@ Result<bool> ShadePass::prepare(const FrameContext& context, std::span<const Pla
   if (!work_ && scene_ && !holds(scene_->places, spheres))
     work_ = std::make_unique<Work>(ShadeMaker::again(*scene_), spheres, lights, in_background);
   if (work_ && (!in_background || is_done())) {
-    ORIEL_TRY_VOID(take(work_->done.get(), context));
+    ShadeScene made = work_->done.get();
     work_.reset();
+    ORIEL_TRY_VOID(take(std::move(made), context));
   }
   if (!scene_ || !blocked_) return false;
-  if (serial_ != scene.serial() || (maps_.side() != static_cast<int>(context.options.shade.map_side)))
-    ORIEL_TRY_VOID(set_intensities(context));
+  const int side = static_cast<int>(context.options.shade.map_side);
+  if (maps_.wanted_side() != side) ORIEL_TRY_VOID(maps_.begin(*scene_, scene.pack().movers, side));
+  if (serial_ != scene.serial()) ORIEL_TRY_VOID(set_intensities(context));
   return true;
 }
 
@@ -114,12 +128,10 @@ Status ShadePass::take(ShadeScene scene, const FrameContext& context) {
   blocked_.emplace(scene_->cells, scene_->shade_lights(),
                    [scene = scene_](std::uint32_t light, const Bounds& box) { return scene->hides(light, box); });
   ORIEL_TRY_VOID(light_.set_scene(*scene_));
-  return maps_.begin(*scene_, static_cast<int>(context.options.shade.map_side));
+  return maps_.begin(*scene_, context.scene.pack().movers, static_cast<int>(context.options.shade.map_side));
 }
 
 Status ShadePass::set_intensities(const FrameContext& context) {
-  if (maps_.side() != static_cast<int>(context.options.shade.map_side))
-    ORIEL_TRY_VOID(maps_.begin(*scene_, static_cast<int>(context.options.shade.map_side)));
   const GpuScene& scene = context.scene;
   ORIEL_TRY(intensities_, scene_->shine(scene.images().source(), scene.pack().materials, scene.pack().sky));
   serial_ = scene.serial();
@@ -160,7 +172,7 @@ std::vector<LightPass> ShadePass::passes(const FrameContext& context) const {
 
 Status ShadePass::make_fewer(const ShadeTarget& target) {
   const int width = (target.light.width() + kStep - 1) / kStep, height = (target.light.height() + kStep - 1) / kStep;
-  if (few_.drawn_into == target.light.name()) return {};
+  if (few_.of == target.serial) return {};
   few_.surfaces = gpu::Texture2d(gpu::kRgba32ui, width, height, nullptr);
   few_.light = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
   few_.mask = gpu::Texture2d(gpu::kR8, target.light.width(), target.light.height(), nullptr);
@@ -168,7 +180,7 @@ Status ShadePass::make_fewer(const ShadeTarget& target) {
   ORIEL_TRY(few_.light_target, gpu::Framebuffer::create("few lights", &few_.light, nullptr));
   const std::array<const gpu::Texture2d*, 2> both{&target.light, &few_.mask};
   ORIEL_TRY(few_.between_target, gpu::Framebuffer::create("light between", both));
-  few_.drawn_into = target.light.name();
+  few_.of = target.serial;
   return gpu::check_gl("making the pictures of the shade of movers");
 }
 
@@ -213,7 +225,7 @@ std::size_t ShadePass::refresh_maps(const FrameContext& context, std::span<const
   std::vector<ShadeMaps::Wanted> maps;
   for (std::uint32_t l = 0; l < wanted.size(); ++l)
     if (wanted[l] != 0) maps.push_back({l, max_component(intensities_[l])});
-  return maps_.refresh(maps, movers, context.options.shade.maps_a_frame, context.stats);
+  return maps_.refresh(context, maps, movers);
 }
 
 Status ShadePass::draw(const FrameContext& context, std::span<const PlacedMover> movers, const ShadeTarget& target) {

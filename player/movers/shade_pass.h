@@ -18,6 +18,7 @@ struct ShadeTarget {
   const gpu::Texture2d& surfaces;  // shaders/lib/lit_surface.glsl
   const gpu::Texture2d& light;
   const gpu::Framebuffer& framebuffer;  // of light alone
+  std::uint64_t serial = 0;             // another one for other textures, above 0
 };
 
 class ShadePass {
@@ -44,8 +45,9 @@ class ShadePass {
   struct Fewer {
     gpu::Texture2d surfaces, light, mask;
     gpu::Framebuffer surfaces_target, light_target, between_target;
-    GLuint drawn_into = 0;  // ShadeTarget::light
+    std::uint64_t of = 0;  // ShadeTarget::serial
   };
+  Status make_programs();
   Status take(ShadeScene scene, const FrameContext& context);
   Status set_intensities(const FrameContext& context);
   std::vector<LightPass> passes(const FrameContext& context) const;
@@ -67,6 +69,8 @@ class ShadePass {
   std::unique_ptr<Work> work_;
   std::uint64_t geometry_ = 0, serial_ = 0, version_ = 0;  // of the scene: whose shape, whose light
   std::uint32_t wanted_lights_ = 0;
+  gpu::Dialect dialect_{};
+  GLint layers_ = 0;  // of an array: as many lights
   std::size_t late_ = 0;
 };
 

@@ -11,10 +11,11 @@
 namespace oriel {
 namespace {
 
-constexpr float kOnLamp = 1e-3f;  // over the lamp's size: a surface that is so near to it is the lamp's
-constexpr float kHidden = 1.01f;  // times as far as what hides it
-constexpr float kSheet = 1e-4f;   // of the distance: thinner things are one surface
-constexpr float kRoom = 2;        // times a mover's radius: it moves on
+constexpr float kOnLamp = 1e-3f;    // over the lamp's size: a surface that is so near to it is the lamp's
+constexpr float kHidden = 1.01f;    // times as far as what hides it
+constexpr float kSheet = 1e-4f;     // of the distance: thinner things are one surface
+constexpr float kRoom = 2;          // times a mover's radius: it moves on
+constexpr float kMostBrighter = 4;  // than it was, of a light whose lamps are changed
 constexpr std::uint32_t kMostCells = 512;
 constexpr float kCellsOfScene = 48;  // smallest cells are so much smaller than the scene
 constexpr float kSmallestCell_m = 0.25f;
@@ -116,28 +117,34 @@ std::vector<ShadeLight> ShadeScene::shade_lights() const {
 
 Result<std::vector<Vec3>> ShadeScene::shine(const ImageSource& images, std::span<const Material> materials,
                                             const Vec3& sky) const {
-  std::map<std::uint32_t, std::pair<LightmapPage, LightmapPage>> pages;  // as baked, and now
+  const bool as_baked = images.lights() == 0;
+  std::map<std::uint32_t, LightmapPage> pages;
   std::vector<Vec3> out;
+  float all = 0;
   for (const ScatteredLight& l : lights) {
-    Vec3 before(1), now(1);
+    Vec3 before = l.before, now = l.before;
     if (l.source == ScatterSource::kSky) {
       before = sky_then, now = sky;
     } else if (l.source == ScatterSource::kEmission) {
       before = emission_then[l.index], now = materials[l.index].emission;
-    } else {
-      auto known = pages.find(l.index);
-      if (known == pages.end()) {
-        std::uint64_t lights_then = 0;
-        ORIEL_TRY(LightmapPage baked, images.whole_page(l.index));
-        ORIEL_TRY(LightmapPage lit, images.lit_page(l.index, lights_then));
-        known = pages.emplace(l.index, std::pair(std::move(baked), std::move(lit))).first;
+    } else if (!as_baked) {
+      std::uint64_t of = 0;
+      if (!pages.contains(l.index)) {
+        ORIEL_TRY(pages[l.index], images.lit_page(l.index, of));
       }
-      before = known->second.first.irradiance[l.texel], now = known->second.second.irradiance[l.texel];
+      now = pages[l.index].irradiance[l.texel];
     }
     Vec3 factor(1);
     for (int c = 0; c < 3; ++c)
       if (before[c] != now[c]) factor[c] = before[c] > 0 ? now[c] / before[c] : 0.0f;
     out.push_back(factor * l.light.intensity);
+    all += luminance(l.light.intensity);
+  }
+  // Each was one of many alike. What was dark and is lit now would be most of the light.
+  for (std::size_t l = 0; l < out.size() && !as_baked; ++l) {
+    const float most =
+        kMostBrighter * std::max(luminance(lights[l].light.intensity), all / static_cast<float>(out.size()));
+    if (const float own = luminance(out[l]); own > most) out[l] *= most / own;
   }
   return out;
 }

@@ -122,7 +122,7 @@ Status Renderer::draw_see_through(const FrameContext& context, const SceneWeight
 }
 
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
-  in_window_ = false;
+  in_window_ = drew_movers_ = false;
   // Light of moved lamps is that of the textures that are there.
   if (!options.live.in_background && !options.lamps.empty()) ORIEL_TRY_VOID(scene.aim(view));
   ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
@@ -173,6 +173,7 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
     ORIEL_TRY(const auto change, draw_change(context, shown, movers));
+    drew_movers_ = !movers.empty();
     clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(context, shown, weights, marks.reflective, change); });
     if (!movers.empty()) {
       clock_.time(Pass::kMovers, [&] {

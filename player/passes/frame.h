@@ -38,7 +38,7 @@ class Renderer {
   // A picture as the frame, of that kind. Error kUsage where it exceeds the device.
   Status take_light(const FloatImage& rgba);
   // Whether a frame of the same view would show more than the last one did.
-  bool has_news() const { return bright_pass_.has_news(); }
+  bool has_news() const { return drew_movers_ && bright_pass_.has_news(); }
   IVec2 frame_size() const { return frame_ ? IVec2(frame_->light.width(), frame_->light.height()) : IVec2(0); }
   // By pixel of the last frame, row 0 at the top: the material (into Pack::materials) of the reflector, planar or
   // curved, that shows its image there; kMoverPixel: a mover; -1: no opaque reflector.
@@ -67,6 +67,7 @@ class Renderer {
   SurveyPass survey_pass_;
   DisplayPass display_;
   std::optional<FrameTarget> frame_, spare_;  // spare_: the one before of another size, which often comes back
+  bool drew_movers_ = false;                  // in the last frame
   bool in_window_ = false;                    // the frame was shown there
   PassClock clock_;
   std::vector<std::uint32_t> marked_;  // of value i + 1 in the last frame's stencil: the reflector's material

@@ -44,7 +44,7 @@ enum class MoverShadows { kMaps, kTextures };
 // of these passes, each pixel finds its cell's lights by itself.
 enum class ShadeWork { kEachLight, kCells, kFewPixels, kMerged, kLists };
 struct ShadeSettings {
-  std::uint32_t lights = 128;  // that stand for what surfaces send out, and as many for the sky; 0: no such shade
+  std::uint32_t lights = 128;  // that stand for what surfaces and the sky send out; 0: no such shade
   ShadeWork work = ShadeWork::kLists;
   std::uint32_t lights_a_pass = 7;  // as published; lists are one pass
   bool every_pixel = false;         // of the frame, else of one of half its size

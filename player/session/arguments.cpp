@@ -133,8 +133,7 @@ std::vector<Option> mover_options(PlayArguments& out) {
       {"--light-points", kMovers,
        "Points of a bright light that movers' shadow maps are taken from, at most: lights that look small take fewer",
        number(out.frame.light_points, 1, 16)},
-      {"--shade", kMovers,
-       "Lights that stand for light from everywhere, in which movers throw shade; and as many for the sky. 0: no shade",
+      {"--shade", kMovers, "Lights that stand for light from everywhere, in which movers throw shade; 0: no such shade",
        number(out.frame.shade.lights, 0, kMostShadeLights), Use::kRare},
       {"--shade-work", kMovers,
        "How that shade is found, to compare: each light at each pixel; those that movers may block in a cell of space "

@@ -91,10 +91,12 @@ TEST_F(ShadeTest, OfTheSkyIsTheSame) {
   EXPECT_NEAR(taken, blocked, 0.05 * blocked);
 }
 
-// What stands between ceiling and mover leaves no light to take.
+// What stands between mover and floor leaves no light to take, though the mover sees the ceiling.
 TEST_F(ShadeTest, IsNoneWhereNoLightComes) {
   Pack pack = room_scene();
-  add_quad(pack, {-8, 1, -8}, {16, 0, 0}, {0, 0, 16}, 0, -1);
+  pack.materials[1].base_color = Vec3(1);
+  EXPECT_LT(lux_at(pack, options_of(ShadeWork::kLists), 0, 0), 0.9f * kLux);
+  add_quad(pack, {-8, -0.5f, -8}, {16, 0, 0}, {0, 0, 16}, 0, -1);
   EXPECT_NEAR(lux_at(pack, options_of(ShadeWork::kLists), 0, 0), kLux, 1e-3f * kLux);
 }
 
@@ -143,12 +145,16 @@ TEST_F(ShadeTest, LateMapsComeInTheEnd) {
   const View view = make_view(camera, 48, 32, bounds_with_movers(**scene, options.poses));
   options.shade.maps_a_frame = 10;
   std::uint32_t frames = 0;
+  std::vector<double> sums;
   do {
     const auto stats = renderer_->render(**scene, view, options);
     ASSERT_TRUE(stats);
     EXPECT_LE(stats->shade.maps, 10u);
+    sums.push_back(0);
+    for (const float value : renderer_->read_frame().pixels) sums.back() += value;
   } while (renderer_->has_news() && ++frames < 20);
   EXPECT_GT(frames, 2u);
+  for (const double sum : sums) EXPECT_GE(sum, sums.back()) << "a map that is not there yet blocks nothing";
   EXPECT_LT(frames, 20u);
   const FloatImage slow = renderer_->read_frame();
   options.shade.maps_a_frame = 0;
@@ -169,6 +175,8 @@ TEST_F(ShadeTest, NoLightsNoMoversNoChange) {
   options.poses.clear();
   const Picture without = draw(pack, camera, 48, 32, options);
   EXPECT_EQ(without.stats.shade.lights, 0u);
+  options.shade.lights = 0;
+  EXPECT_EQ(draw(pack, camera, 48, 32, options).rgb, without.rgb);
 }
 
 TEST_F(ShadeTest, ExtremesStayFinite) {

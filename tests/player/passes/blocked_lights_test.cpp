@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "tests/player/passes/shade_scene.h"
+#include "tests/player/passes/random_boxes.h"
 
 namespace oriel {
 namespace {
@@ -17,7 +17,7 @@ bool crosses(const Vec3& from, const Vec3& to, const Vec4& sphere) {
   const float t = std::clamp(glm::dot(c, way) / std::max(length2(way), 1e-20f), 0.0f, 1.0f);
   return glm::length(c - t * way) <= sphere.w;
 }
-bool face_each_other(const ShadeLight& light, const ShadeScene::Place& place) {
+bool face_each_other(const ShadeLight& light, const RandomBoxes::Place& place) {
   const Vec3 way = light.position - place.position;
   if (light.normal != Vec3(0) && glm::dot(light.normal, way) >= 0) return false;
   return place.two_sided || glm::dot(place.normal, way) > 0 || glm::dot(place.shading, way) > 0;
@@ -51,7 +51,7 @@ struct Lit {
       for (std::uint32_t l = 0; l < lights.size(); ++l) ASSERT_EQ(a.movers_of(c, l), b.movers_of(c, l));
   }
 
-  ShadeScene scene;
+  RandomBoxes scene;
   std::vector<ShadeCell> cells;
   std::vector<ShadeLight> lights;
 };
@@ -64,7 +64,7 @@ TEST(BlockedLights, MissNone) {
     const std::vector<Vec4> spheres = {lit.sphere(0.1f), lit.sphere(0.6f), Vec4(lit.lights[3].position, 0.2f)};
     for (std::uint32_t m = 0; m < spheres.size(); ++m) database.move(m, spheres[m]);
     for (int i = 0; i < 50000; ++i) {
-      const ShadeScene::Place place = lit.scene.place();
+      const RandomBoxes::Place place = lit.scene.place();
       const auto light = static_cast<std::uint32_t>(lit.scene.index(lit.lights.size()));
       if (!face_each_other(lit.lights[light], place)) continue;
       const std::uint32_t leaf = leaf_at(lit.cells, place.position);
@@ -83,9 +83,9 @@ TEST(BlockedLights, MissNone) {
 // Of the leaves that may be in a mover's shade, most have a point that is.
 TEST(BlockedLights, AreFew) {
   Lit lit(7, 12, 20);
-  std::map<std::uint32_t, std::vector<ShadeScene::Place>> places;
+  std::map<std::uint32_t, std::vector<RandomBoxes::Place>> places;
   for (int i = 0; i < 1000000; ++i) {
-    const ShadeScene::Place place = lit.scene.place();
+    const RandomBoxes::Place place = lit.scene.place();
     places[leaf_at(lit.cells, place.position)].push_back(place);
   }
   std::size_t told = 0, crossed = 0;
@@ -96,7 +96,7 @@ TEST(BlockedLights, AreFew) {
     told += lit.blocked(database);
     for (const auto& [leaf, inside] : places)
       for (const std::uint32_t light : database.lights_of(leaf))
-        crossed += std::ranges::any_of(inside, [&, l = lit.lights[light]](const ShadeScene::Place& place) {
+        crossed += std::ranges::any_of(inside, [&, l = lit.lights[light]](const RandomBoxes::Place& place) {
           return face_each_other(l, place) && crosses(l.position, place.position, sphere);
         });
   }
@@ -194,7 +194,7 @@ TEST(BlockedLights, LeaveOutWhatIsHidden) {
 }
 
 TEST(BlockedLights, KeepToLightsThatFaceThem) {
-  ShadeScene scene(11);
+  RandomBoxes scene(11);
   scene.add_box({{-4, 0, -4}, {4, 3, 4}}, true);
   const auto cells = make_shade_cells(scene.triangles, {0.5f, 300});
   // Under the ceiling: down, up, and one that is above the mover but shines down from below it.
@@ -214,7 +214,7 @@ TEST(BlockedLights, KeepToLightsThatFaceThem) {
 }
 
 TEST(BlockedLights, KeepToSurfacesThatFaceLights) {
-  ShadeScene scene(13);
+  RandomBoxes scene(13);
   scene.add_box({{-4, 0, -4}, {4, 0.2f, 4}}, false);
   const std::vector<ShadeTriangle> top(scene.triangles.begin() + 6, scene.triangles.begin() + 8);
   const std::vector<ShadeLight> lights = {{{0, 3, 0}, Vec3(0)}, {{0, -3, 0}, Vec3(0)}};
@@ -262,7 +262,7 @@ TEST(BlockedLights, TakeWhatIsDegenerate) {
   // One around all of it: whatever faces a light.
   database.move(63, {0, 0, 0, 100});
   for (int i = 0; i < 2000; ++i) {
-    const ShadeScene::Place place = lit.scene.place();
+    const RandomBoxes::Place place = lit.scene.place();
     const auto light = static_cast<std::uint32_t>(lit.scene.index(lit.lights.size()));
     if (!face_each_other(lit.lights[light], place)) continue;
     ASSERT_EQ(database.movers_of(leaf_at(lit.cells, place.position), light), std::uint64_t{1} << 63);

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "tests/player/passes/shade_scene.h"
+#include "tests/player/passes/random_boxes.h"
 
 namespace oriel {
 namespace {
@@ -24,7 +24,7 @@ std::size_t leaves_of(const std::vector<ShadeCell>& cells) {
 }
 
 TEST(ShadeCells, DivideSpace) {
-  ShadeScene scene(1);
+  RandomBoxes scene(1);
   scene.furnish({6, 2, 4}, 20);
   const auto cells = make_shade_cells(scene.triangles, {0.3f, 300});
   EXPECT_EQ(leaves_of(cells), 300u);
@@ -47,7 +47,7 @@ TEST(ShadeCells, DivideSpace) {
 
 TEST(ShadeCells, HoldSurfacesAndTheirNormals) {
   for (unsigned seed = 0; seed < 6; ++seed) {
-    ShadeScene scene(seed);
+    RandomBoxes scene(seed);
     scene.furnish(Vec3(8, 2, 5) * (seed % 2 == 0 ? 1.0f : 1000.0f), 15);
     if (seed >= 2) scene.add_loose(200, 0.2f * scene.room.upper.y);
     if (seed >= 4)
@@ -55,7 +55,7 @@ TEST(ShadeCells, HoldSurfacesAndTheirNormals) {
         for (Vec3& corner : t.corners) corner += Vec3(3000, -200, 1000);
     const auto cells = make_shade_cells(scene.triangles, {0.4f * scene.room.upper.y, 400});
     for (int i = 0; i < 20000; ++i) {
-      const ShadeScene::Place place = scene.place();
+      const RandomBoxes::Place place = scene.place();
       const ShadeCell& leaf = cells[leaf_at(cells, place.position)];
       ASSERT_TRUE(lies_in(leaf.content, place.position));
       ASSERT_GE(glm::dot(leaf.axis, place.normal), leaf.cos_spread);
@@ -68,7 +68,7 @@ TEST(ShadeCells, HoldSurfacesAndTheirNormals) {
 TEST(ShadeCells, HoldWhatRoundingMovesAcrossTheirPlanes) {
   // Nothing but walls across x: one, which both halves have, beside the plane where the root is split.
   for (const float x : {-1e-5f, 0.0f, 1e-5f}) {
-    ShadeScene scene(3);
+    RandomBoxes scene(3);
     scene.add_box({{-4, 0, -1}, {4, 1, 1}}, true);
     scene.triangles.resize(4);
     scene.add_box({{x, 0, -1}, {1, 1, 1}}, false);
@@ -85,7 +85,7 @@ TEST(ShadeCells, HoldWhatRoundingMovesAcrossTheirPlanes) {
 }
 
 TEST(ShadeCells, AreClippedAndStopWhereTheyAreSmall) {
-  ShadeScene scene(4);
+  RandomBoxes scene(4);
   scene.add_box({{0, 0, 0}, {8, 0.5f, 8}}, false);
   const auto cells = make_shade_cells(scene.triangles, {1.1f, 100000});
   EXPECT_EQ(leaves_of(cells), 64u);
@@ -95,7 +95,7 @@ TEST(ShadeCells, AreClippedAndStopWhereTheyAreSmall) {
     EXPECT_LT(size.x, 1.01f);
     EXPECT_LT(size.z, 1.01f);
   }
-  ShadeScene wall(5);
+  RandomBoxes wall(5);
   wall.furnish({3, 3, 3}, 0);
   const std::vector<ShadeTriangle> floor(wall.triangles.begin() + 4, wall.triangles.begin() + 6);
   for (const ShadeCell& cell : make_shade_cells(floor, {0.5f, 50})) {

@@ -8,9 +8,9 @@
 
 namespace oriel {
 
-class ShadeScene {
+class RandomBoxes {
  public:
-  explicit ShadeScene(unsigned seed) : random_(seed) {}
+  explicit RandomBoxes(unsigned seed) : random_(seed) {}
 
   float uniform(float from, float to) { return std::uniform_real_distribution<float>(from, to)(random_); }
   Vec3 in(const Bounds& box) {
