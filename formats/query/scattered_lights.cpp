@@ -318,7 +318,8 @@ void ScatterSources::draw_sky(const Seen& seen, const Vec3& sky, std::uint32_t c
   for (const Vec3& direction : open) {
     ScatteredLight light;
     light.light.position = seen.middle + distance * direction;
-    light.light.intensity = sky * (solid_angle * distance * distance);
+    light.light.disk = solid_angle / kPi * distance * distance;
+    light.light.intensity = sky * (solid_angle * (distance * distance + light.light.disk));
     light.source = ScatterSource::kSky;
     out.push_back(light);
   }

@@ -61,13 +61,19 @@ Status ShadeDraw::set_lights(const ShadeScene& scene, std::span<const Vec3> inte
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
     const HemisphereMap& map = scene.maps[l];
     const bool sky = scene.lights[l].source == ScatterSource::kSky;
-    texels.emplace_back(map.from, sky ? -1e-30f : scene.lights[l].light.disk);
+    const float disk = std::max(scene.lights[l].light.disk, 1e-30f);
+    texels.emplace_back(map.from, sky ? -disk : disk);
     texels.emplace_back(intensities[l], map.squeeze);
     texels.emplace_back(map.frame[0], map.nearest);
     texels.emplace_back(map.frame[2], map.farthest);
   }
   lights_ = float_texture(kLightTexels, std::move(texels));
   return gpu::check_gl("uploading lights for the shade of movers");
+}
+
+void ShadeDraw::set_movers(std::span<const Vec4> spheres) {
+  movers_.fill(Vec4(kFar, kFar, kFar, 0));
+  std::copy_n(spheres.begin(), std::min(spheres.size(), movers_.size()), movers_.begin());
 }
 
 void ShadeDraw::upload_list(std::vector<std::uint32_t> list) {
@@ -108,6 +114,7 @@ void ShadeDraw::bind(const gpu::Program& program, const ShadeMaps& maps, const S
   program.set("u_list", kListUnit);
   program.set("u_mover_depth", kShadowUnit);
   program.set("u_still_depth", kStaticUnit);
+  program.set("u_movers", std::span<const Vec4>(movers_));
   seen.surfaces.bind(kSurfaceUnit);
   if (seen.mask != nullptr) seen.mask->bind(kMaskUnit);
   lights_.bind(kLightsUnit), list_.bind(kListUnit);

@@ -2,6 +2,8 @@
 // published, boxes around cells in passes of a few lights each; or in one pass, in which each pixel finds its cell.
 #pragma once
 
+#include <array>
+
 #include "player/movers/light_passes.h"
 #include "player/movers/shade_maps.h"
 
@@ -13,6 +15,8 @@ class ShadeDraw {
 
   Status set_scene(const ShadeScene& scene);
   Status set_lights(const ShadeScene& scene, std::span<const Vec3> intensities);
+  // Where they are: the farther from them, the wider are the edges of their shade. The first kMovers of them count.
+  void set_movers(std::span<const Vec4> spheres);
   // What draw() draws from now on. by_pixel: each element is one leaf.
   Status set_passes(std::vector<LightPass> passes, bool by_pixel, std::uint32_t lights_a_pass);
 
@@ -33,6 +37,8 @@ class ShadeDraw {
   gpu::Program boxes_, pixels_;
   gpu::VertexArray no_vertices_;
   gpu::Texture2d lights_, cells_, tree_, list_;
+  static constexpr std::size_t kMovers = 16;  // as shaders/lib/shade.glsl has it
+  std::array<Vec4, kMovers> movers_{};
   std::size_t cell_count_ = 0;
   std::vector<LightPass> passes_;
   bool by_pixel_ = false;

@@ -239,6 +239,7 @@ Status ShadePass::draw(const FrameContext& context, std::span<const PlacedMover>
   spheres_.resize(known, Vec4(0, 0, 0, -1));
   for (std::uint32_t m = 0; m < known; ++m)
     if (spheres_[m] != movers[m].sphere) blocked_->move(m, spheres_[m] = movers[m].sphere);
+  light_.set_movers(spheres_);
   std::vector<LightPass> drawn = passes(context);
   watch.add_to(stats.cells_ms);
   stats.cells_ms -= stats.merge_ms;

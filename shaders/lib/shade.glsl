@@ -7,6 +7,7 @@ uniform sampler2D u_lights;
 uniform usampler2D u_list;  // numbers, row by row
 uniform sampler2DArrayShadow u_mover_depth;  // by light
 uniform sampler2DArrayShadow u_still_depth;
+uniform vec4 u_movers[16];  // spheres; far away: none
 
 // A light that stands for surfaces (formats/query/scattered_lights.h), and its maps.
 struct ShadeLight {
@@ -54,10 +55,24 @@ float passes(sampler2DArrayShadow map, int layer, ShadeLight light, vec3 local) 
   return texture(map, vec4(place.xy, float(layer), place.z));
 }
 
-// Share of the light that movers take. The maps are of movers alone, so that no surface shades itself in them.
-float taken_of(int layer, ShadeLight light, LitSurface surface) {
+float distance_to_mover(vec3 point) {
+  float nearest = 1e30;
+  for (int i = 0; i < 16; ++i) nearest = min(nearest, distance(point, u_movers[i].xyz));
+  return nearest;
+}
+
+// Share of the light that movers take. The maps are of movers alone, so that no surface shades itself in them. A light stands for a
+// disk: from some points of it, by what a mover that is so far away (metres) moves in the map.
+float taken_of(int layer, ShadeLight light, LitSurface surface, float mover) {
   vec3 local = local_of(light, surface.position);
-  float taken = 1.0 - passes(u_mover_depth, layer, light, local);
+  float away = distance(light.from, surface.position);
+  float wide = sqrt(light.disk) * min(mover / max(away - mover, 1e-6), 1.0);
+  float angle = 2.4 * float(layer);
+  vec2 x = 0.7 * wide * vec2(cos(angle), sin(angle)), y = vec2(-x.y, x.x);
+  float open = passes(u_mover_depth, layer, light, local) + passes(u_mover_depth, layer, light, local + vec3(x, 0.0)) +
+               passes(u_mover_depth, layer, light, local - vec3(x, 0.0)) + passes(u_mover_depth, layer, light, local + vec3(y, 0.0)) +
+               passes(u_mover_depth, layer, light, local - vec3(y, 0.0));
+  float taken = 1.0 - 0.2 * open;
   return taken > 0.0 ? taken * passes(u_still_depth, layer, light, local) : 0.0;
 }
 
@@ -69,11 +84,12 @@ int list_at(int place) {
 // Of so many lights in the list from there on, lux.
 vec3 taken_light(int first, int count, LitSurface surface) {
   vec3 sum = vec3(0.0);
+  float mover = distance_to_mover(surface.position);
   for (int i = 0; i < count; ++i) {
     int index = list_at(first + i);
     ShadeLight light = fetch_light(u_lights, index);
     vec3 lux = unshadowed(light, surface.position, surface.normal);
-    if (max(lux.r, max(lux.g, lux.b)) > 0.0) sum += taken_of(index, light, surface) * lux;
+    if (max(lux.r, max(lux.g, lux.b)) > 0.0) sum += taken_of(index, light, surface, mover) * lux;
   }
   return sum;
 }
