@@ -44,7 +44,7 @@ TEST(Configurations, OfASceneWithEverythingVaryEveryKnob) {
   const TradePlan plan = plan_trade(everything(), 0.1, false);
   EXPECT_THAT(plan.skipped, IsEmpty());
   for (const char* knob : {"reflections", "views", "maps", "map resolution", "blur", "kernel", "fresnel", "select",
-                           "sh bands", "transfer", "mover lights", "as published"})
+                           "sh bands", "transfer", "mover lights", "shade", "as published"})
     EXPECT_THAT(knobs(plan), Contains(knob));
   std::set<std::string> published;
   for (const Configuration& c : plan.configurations) published.insert(c.published);
