@@ -5,41 +5,12 @@
 #include <new>
 
 #include "formats/core/color.h"
-#include "formats/core/parallel.h"
 
 namespace oriel {
 namespace {
 
 // Coarser ones serve nobody.
 constexpr int kCoarsest = 5, kCoarsestMap = 2;
-
-// Sums over maps that come one after the other.
-class MeansOfMaps {
- public:
-  void add(const RadianceMap& map) {
-    for (std::size_t i = 0; i < map.radiance.size(); ++i) {
-      if (map.valid[i] == 0 || !is_finite(map.radiance[i])) continue;
-      radiance_ += DVec3(map.radiance[i]);
-      count_ += 1;
-      if (map.valid[i] == 2 || !(map.disparity[i] > 0)) continue;
-      const Vec2 share((static_cast<float>(i % map.width) + 0.5f) / static_cast<float>(map.width),
-                       (static_cast<float>(i / map.width) + 0.5f) / static_cast<float>(map.height));
-      const Vec3 to_plane = Vec3(glm::mix(map.lower, map.upper, share), 0) - map.eye;
-      distance_ += double{glm::length(to_plane)} * (1 / double{map.disparity[i]} - 1);
-      surfaces_ += 1;
-    }
-  }
-  MapMeans means() const {
-    MapMeans out;
-    if (count_ > 0) out.radiance = Vec3(radiance_ / count_);
-    if (surfaces_ > 0) out.distance = static_cast<float>(distance_ / surfaces_);
-    return out;
-  }
-
- private:
-  DVec3 radiance_{0};
-  double count_ = 0, distance_ = 0, surfaces_ = 0;
-};
 
 template <class Image>
 IVec2 size_of(const Image& image) {
@@ -64,7 +35,8 @@ ImageSource::ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages>
       deferred_(std::move(deferred)),
       elements_(std::move(elements)),
       page_groups_(pack.page_groups),
-      users_(pack.textures.size()) {
+      users_(pack.textures.size()),
+      map_light_(std::make_unique<MapLight>(pack)) {
   for (const Material& m : pack.materials)
     if (m.base_color_texture >= 0) users_[static_cast<std::size_t>(m.base_color_texture)].push_back(m);
   for (const EmissionTexture& e : pack.emission_textures) users_[e.texture].push_back(pack.materials[e.material]);
@@ -111,11 +83,7 @@ std::size_t ImageSource::bytes(const ImageName& name, int coarser) const {
       return light_page_bytes(pages_[name.index], details_[name.index], directional_[name.index], coarser);
     case ImageKind::kMaps: {
       std::size_t sum = 0;
-      for (const ReflectorElement& element : elements_[name.index]) {
-        std::vector<IVec2> sizes;
-        for (const std::uint32_t map : element.maps) sizes.push_back(coarser_size(maps_[map], coarser));
-        sum += map_array_bytes(sizes);
-      }
+      for (const ReflectorElement& element : elements_[name.index]) sum += map_array_bytes(map_sizes(element, coarser));
       return sum;
     }
     case ImageKind::kSurround:
@@ -124,15 +92,25 @@ std::size_t ImageSource::bytes(const ImageName& name, int coarser) const {
   return 0;
 }
 
+std::vector<IVec2> ImageSource::map_sizes(const ReflectorElement& element, int coarser) const {
+  std::vector<IVec2> sizes;
+  for (const std::uint32_t map : element.maps) sizes.push_back(coarser_size(maps_[map], coarser));
+  return sizes;
+}
+
 Result<PreparedImage> ImageSource::prepare(const ImageName& name, int coarser) const {
+  return guarded(name, coarser, Parts::kAll);
+}
+
+Result<PreparedImage> ImageSource::guarded(const ImageName& name, int coarser, Parts parts) const {
   try {
-    return make(name, coarser);
+    return make(name, coarser, parts);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::kRuntime, "images", "there is not enough memory for the next one");
   }
 }
 
-Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser) const {
+Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser, Parts parts) const {
   PreparedImage out;
   switch (name.kind) {
     case ImageKind::kColor: {
@@ -166,22 +144,17 @@ Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser) cons
       return out;
     }
     case ImageKind::kMaps:
-      return make_maps(name.index, coarser);
-    case ImageKind::kSurround: {
-      ORIEL_TRY(const SurroundMap map, deferred_ ? deferred_->surround_map(name.index)
-                                                 : Result<SurroundMap>(pack_->surround_maps[name.index]));
-      SurroundData data = surround_data(map);
-      out.textures.push_back(std::move(data.light));
-      out.textures.push_back(std::move(data.inverse_distance));
-      out.surround = std::move(data.place);
-      return out;
-    }
+      return make_maps(name.index, coarser, parts);
+    case ImageKind::kSurround:
+      return make_surround(name.index, parts);
   }
   return out;
 }
 
-void ImageSource::set_lights(std::span<const Vec3> factors, std::shared_ptr<const PageChanges> changes) {
+void ImageSource::set_lights(std::span<const Vec3> factors, MapFactors of_maps,
+                             std::shared_ptr<const PageChanges> changes) {
   const std::scoped_lock lock(lights_->mutex);
+  lights_->of_maps = std::move(of_maps);
   lights_->factors.assign(factors.begin(), factors.end());
   lights_->added = std::move(changes);
   ++lights_->changes;
@@ -262,46 +235,6 @@ Result<LightmapPage> ImageSource::make_lit_page(std::uint32_t page, std::uint64_
   }
   out.detail = now.detail;
   return out;
-}
-
-Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarser) const {
-  PreparedImage out;
-  MeansOfMaps means;
-  for (const ReflectorElement& element : elements_[reflector]) {
-    std::vector<RadianceMap> maps(element.maps.size());
-    std::vector<Status> loaded(maps.size());
-    for_each_parallel(maps.size(), core_count(), [&](std::size_t m) {
-      if (*abandoned_) {
-        loaded[m] = fail(ErrorCode::kStopped, "images", "nobody waits for them any more");
-        return;
-      }
-      Result<RadianceMap> map = radiance_map(element.maps[m]);
-      if (map)
-        maps[m] = std::move(*map);
-      else
-        loaded[m] = tl::unexpected<Error>(std::move(map).error());
-    });
-    for (const Status& status : loaded) ORIEL_TRY_VOID(status);
-    std::vector<const RadianceMap*> layers;
-    std::vector<IVec2> sizes;
-    for (RadianceMap& map : maps) {
-      means.add(map);
-      if (coarser > 0) map = coarser_map(map, coarser);
-      layers.push_back(&map);
-      sizes.push_back(size_of(map));
-    }
-    MapArrayData data = MapArrayData::make(layers);
-    for (TextureData* part : {&data.light, &data.disparity, &data.ranges}) out.textures.push_back(std::move(*part));
-    out.map_scales.push_back(std::move(data.scale));
-    out.map_sizes.push_back(std::move(sizes));
-  }
-  out.means = means.means();
-  return out;
-}
-
-Result<RadianceMap> ImageSource::radiance_map(std::uint32_t index) const {
-  if (deferred_) return deferred_->radiance_map(index);
-  return pack_->radiance_maps[index];
 }
 
 }  // namespace oriel

@@ -12,6 +12,7 @@
 #include "player/images/image_data.h"
 #include "player/images/map_array.h"
 #include "player/images/map_choice.h"
+#include "player/images/map_light.h"
 #include "player/images/surround_pyramid.h"
 
 namespace oriel {
@@ -35,7 +36,8 @@ struct PreparedImage {
       textures;  // light: directions second, cells and details last; maps: light, disparity and ranges of each element
   float scale = 0, mean_lux = 0;               // of light
   bool directional = false;                    // likewise
-  std::uint64_t lights = 0;                    // likewise: ImageSource::lights() that it was made for
+  std::uint64_t lights = 0;                    // of light and maps: ImageSource::lights() that it was made for
+  std::uint64_t geometry = 0;                  // of maps: ImageSource::geometry(), likewise
   std::vector<std::vector<float>> map_scales;  // of maps, by element and layer
   std::vector<std::vector<IVec2>> map_sizes;
   MapMeans means;
@@ -47,14 +49,17 @@ struct PreparedImage {
 
 class ImageSource {
  public:
-  // elements: by reflector. What is not deferred lies in `pack`, which then stays as it is.
+  // elements: by reflector. What is not deferred lies in `pack`, which then stays as it is, as do its mesh and its
+  // reflectors.
   ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages> deferred,
               std::vector<std::vector<ReflectorElement>> elements);
 
-  // Pages of light are made of groups of lamps that shine so many times as they were baked, and of that, from now on.
-  // Not while prepare() of a page runs for anyone who cannot tell by PreparedImage::lights that it came too late.
-  void set_lights(std::span<const Vec3> factors, std::shared_ptr<const PageChanges> changes);
-  std::uint64_t lights() const;  // rises with each change
+  // Pages of light are made of groups of lamps that shine so many times as they were baked, and of that, from now on;
+  // maps show these pages.
+  // Not while prepare() runs for anyone who cannot tell by PreparedImage::lights that it came too late.
+  void set_lights(std::span<const Vec3> factors, MapFactors of_maps, std::shared_ptr<const PageChanges> changes);
+  std::uint64_t lights() const;    // rises with each change
+  std::uint64_t geometry() const;  // MapFactors::geometry
   // A group's own light of a page, as it was baked. Errors as prepare().
   Result<PageChange> light_of_group(std::uint32_t page, std::size_t group) const;
   // A page with all that the bake knows of its texels, as it was baked.
@@ -66,16 +71,25 @@ class ImageSource {
   Result<PreparedImage> prepare(const ImageName& name, int coarser) const;
   int coarsest(const ImageName& name) const;
   std::size_t bytes(const ImageName& name, int coarser) const;
+  // The same of maps without all but the light, where that alone changes.
+  Result<PreparedImage> prepare_light(const ImageName& maps, int coarser) const;
+  std::size_t light_bytes(const ImageName& maps, int coarser) const;
+  // They are not wanted any more: what is kept for their light to follow lamps is dropped.
+  void forget(const ImageName& maps) const;
 
   // What is being prepared in other threads ends soon, with kStopped.
   void abandon() { *abandoned_ = true; }
 
-  Result<RadianceMap> radiance_map(std::uint32_t index) const;
+  // As lamps shine now. lights: for which.
+  Result<RadianceMap> lit_map(std::uint32_t index, std::uint64_t& lights) const;
   const DeferredImages* deferred() const { return deferred_.get(); }
   std::array<std::size_t, 5> counts() const;  // by ImageKind
 
  private:
-  Result<PreparedImage> make(const ImageName& name, int coarser) const;
+  enum class Parts { kAll, kLight };
+  using LightOfMaps = std::shared_ptr<const MapLights>;  // null: as baked
+  Result<PreparedImage> guarded(const ImageName& name, int coarser, Parts parts) const;
+  Result<PreparedImage> make(const ImageName& name, int coarser, Parts parts) const;
   // What shines otherwise than it was baked, of a page.
   struct Otherwise {
     std::vector<Vec3> factors;
@@ -87,7 +101,12 @@ class ImageSource {
   Result<LightmapPage> make_lit_page(std::uint32_t page, std::uint64_t& lights) const;
   Result<HalfPage> light_of_page(std::uint32_t page, const Otherwise& of) const;
   Result<std::shared_ptr<const HalfPage>> baked_page(std::uint32_t page) const;
-  Result<PreparedImage> make_maps(std::uint32_t reflector, int coarser) const;
+  Result<PreparedImage> make_maps(std::uint32_t reflector, int coarser, Parts parts) const;
+  Result<PreparedImage> make_surround(std::uint32_t index, Parts parts) const;
+  Result<RadianceMap> radiance_map(std::uint32_t index) const;
+  std::vector<IVec2> map_sizes(const ReflectorElement& element, int coarser) const;
+  Result<LightOfMaps> light_of_maps(PreparedImage& of) const;
+  Result<LightOfMaps> make_light_of_maps(std::uint64_t lights) const;
   const Pack* pack_ = nullptr;  // null where images are deferred
   std::shared_ptr<const DeferredImages> deferred_;
   std::vector<std::vector<ReflectorElement>> elements_;
@@ -103,8 +122,18 @@ class ImageSource {
     std::vector<Vec3> factors;
     std::shared_ptr<const PageChanges> added;
     std::map<std::uint32_t, std::shared_ptr<const HalfPage>> baked;
+    MapFactors of_maps;
+  };
+  // What maps follow, for the last lights that were asked for.
+  struct Followed {
+    std::mutex mutex;
+    std::uint64_t lights = ~0ull;
+    LightOfMaps light;
+    std::shared_ptr<const std::vector<LightmapPage>> baked;
   };
   std::unique_ptr<Lights> lights_ = std::make_unique<Lights>();
+  std::unique_ptr<Followed> followed_ = std::make_unique<Followed>();
+  std::unique_ptr<MapLight> map_light_;
   std::unique_ptr<std::atomic<bool>> abandoned_ = std::make_unique<std::atomic<bool>>(false);
 };
 

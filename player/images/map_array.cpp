@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "formats/core/parallel.h"
 
@@ -56,49 +57,72 @@ void add_ranges(const Relief& relief, int layer, int width, int height, TextureD
   ranges.add({0, layer, height, width, height / 2}, std::move(strip));
 }
 
+MapArrayData shape_of(std::span<const IVec2> sizes) {
+  IVec2 size(1);
+  for (const IVec2& of_map : sizes) size = glm::max(size, of_map);
+  return shape_of(size, static_cast<int>(sizes.size()));
+}
+
+std::vector<IVec2> sizes_of(std::span<const RadianceMap* const> maps) {
+  std::vector<IVec2> sizes;
+  for (const RadianceMap* map : maps) sizes.emplace_back(static_cast<int>(map->width), static_cast<int>(map->height));
+  return sizes;
+}
+
+void add_relief(const Relief& relief, int layer, MapArrayData& out) {
+  add_ranges(relief, layer, out.ranges.width, out.ranges.height * 2 / 3, out.ranges);
+  std::vector<std::uint16_t> codes;
+  codes.reserve(relief.disparity.size());
+  for (const float s : relief.disparity) codes.push_back(disparity_code(s));
+  out.disparity.add({0, layer, 0, relief.size.x, relief.size.y}, std::move(codes));
+}
+
+void add_light(LightLevels levels, int layer, const IVec2& of_map, MapArrayData& out) {
+  const IVec2 size(out.light.width, out.light.height);
+  for (int level = 0; of_map != size && level < out.light.options.levels;
+       ++level) {  // filters may touch what is beside it
+    const int w = std::max(size.x >> level, 1), h = std::max(size.y >> level, 1);
+    out.light.add({level, layer, 0, w, h},
+                  std::vector<std::uint32_t>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)));
+  }
+  for (std::size_t level = 0; level < levels.rgb9e5.size(); ++level)
+    out.light.add({static_cast<int>(level), layer, 0, std::max(of_map.x >> level, 1), std::max(of_map.y >> level, 1)},
+                  std::move(levels.rgb9e5[level]));
+  out.scale.push_back(levels.scale);
+}
+
+constexpr std::size_t kAtOnce = 4;  // a map takes a few hundred bytes a pixel meanwhile
+
 }  // namespace
 
 MapArrayData MapArrayData::make(std::span<const RadianceMap* const> maps) {
-  IVec2 size(1);
-  for (const RadianceMap* map : maps)
-    size = glm::max(size, IVec2(static_cast<int>(map->width), static_cast<int>(map->height)));
-  MapArrayData out = shape_of(size, static_cast<int>(maps.size()));
-  struct Layer {
-    Relief relief;
-    LightLevels levels;
-  };
-  std::vector<Layer> made(maps.size());
-  // A map takes a few hundred bytes a pixel meanwhile: not too many at once.
-  for_each_parallel(made.size(), std::min<std::size_t>(core_count(), 4), [&](std::size_t layer) {
-    made[layer] = {make_relief(*maps[layer]), make_light_levels(*maps[layer])};
-  });
-  for (int layer = 0; layer < out.light.layers; ++layer) {
-    auto [relief, levels] = std::move(made[static_cast<std::size_t>(layer)]);
-    const IVec2 of_map = relief.size;
-    add_ranges(relief, layer, out.ranges.width, out.ranges.height * 2 / 3, out.ranges);
-    std::vector<std::uint16_t> codes;
-    codes.reserve(relief.disparity.size());
-    for (const float s : relief.disparity) codes.push_back(disparity_code(s));
-    out.disparity.add({0, layer, 0, of_map.x, of_map.y}, std::move(codes));
-    for (int level = 0; of_map != size && level < out.light.options.levels;
-         ++level) {  // filters may touch what is beside it
-      const int w = std::max(size.x >> level, 1), h = std::max(size.y >> level, 1);
-      out.light.add({level, layer, 0, w, h},
-                    std::vector<std::uint32_t>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)));
-    }
-    for (std::size_t level = 0; level < levels.rgb9e5.size(); ++level)
-      out.light.add({static_cast<int>(level), layer, 0, std::max(of_map.x >> level, 1), std::max(of_map.y >> level, 1)},
-                    std::move(levels.rgb9e5[level]));
-    out.scale.push_back(levels.scale);
-  }
+  MapArrayData out = light_of(maps);
+  std::vector<Relief> reliefs(maps.size());
+  for_each_parallel(maps.size(), std::min(core_count(), kAtOnce),
+                    [&](std::size_t layer) { reliefs[layer] = make_relief(*maps[layer]); });
+  for (std::size_t layer = 0; layer < maps.size(); ++layer)
+    add_relief(std::exchange(reliefs[layer], {}), static_cast<int>(layer), out);
+  return out;
+}
+
+MapArrayData MapArrayData::light_of(std::span<const RadianceMap* const> maps) {
+  const std::vector<IVec2> sizes = sizes_of(maps);
+  MapArrayData out = shape_of(sizes);
+  std::vector<LightLevels> levels(maps.size());
+  for_each_parallel(maps.size(), std::min(core_count(), kAtOnce),
+                    [&](std::size_t layer) { levels[layer] = make_light_levels(*maps[layer]); });
+  for (std::size_t layer = 0; layer < maps.size(); ++layer)
+    add_light(std::move(levels[layer]), static_cast<int>(layer), sizes[layer], out);
   return out;
 }
 
 std::size_t map_array_bytes(std::span<const IVec2> sizes) {
-  IVec2 size(1);
-  for (const IVec2& of_map : sizes) size = glm::max(size, of_map);
-  const MapArrayData shape = shape_of(size, static_cast<int>(sizes.size()));
+  const MapArrayData shape = shape_of(sizes);
   return shape.light.bytes() + shape.disparity.bytes() + shape.ranges.bytes();
+}
+
+std::size_t map_light_bytes(std::span<const IVec2> sizes) {
+  return shape_of(sizes).light.bytes();
 }
 
 TextureData map_points_data(const RadianceMap& map) {

@@ -15,16 +15,18 @@ struct MapArrayData {
   std::vector<float> scale;  // of each layer's light
   // Layer i is maps[i]; smaller ones lie in the lower left corner.
   static MapArrayData make(std::span<const RadianceMap* const> maps);
+  // The same without disparities and ranges.
+  static MapArrayData light_of(std::span<const RadianceMap* const> maps);
 };
 // On the device, of maps of these sizes.
 std::size_t map_array_bytes(std::span<const IVec2> sizes);
+std::size_t map_light_bytes(std::span<const IVec2> sizes);  // of their light alone
 
 struct MapArray {
   // Disparities and their ranges in 16 bits (relief.h).
   gpu::TextureArray light, disparity, ranges;
   std::vector<float> scale;
   std::vector<IVec2> sizes;  // of the layers' maps, pixels
-  Vec3 tint{1};              // of light, for lamps that shine otherwise than it shows
 };
 
 // A map as points, float RGBA: radiance, and disparity, which is -1 where the pixel saw nothing usable.

@@ -104,8 +104,11 @@ void SceneImages::plan() {
   for (std::size_t w = 0; w < wishes.size(); ++w)
     if (levels[w] < wishes[w].out()) items_[whose[w]].target = levels[w];
   if (account_.limit() == kNoLimit) return;
-  for (Item& item : items_)
-    if (item.level >= 0 && item.target < 0) drop(item);
+  for (Item& item : items_) {
+    if (item.level < 0 || item.target >= 0) continue;
+    drop(item);
+    source_.forget(item.name);
+  }
 }
 
 void SceneImages::drop(Item& item) {
@@ -137,7 +140,9 @@ void SceneImages::drop(Item& item) {
 void SceneImages::ask_for_more() {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < items_.size(); ++i)
-    if (items_[i].target >= 0 && items_[i].target != items_[i].level && items_[i].coming < 0) order.push_back(i);
+    if (items_[i].target >= 0 && items_[i].coming < 0 &&
+        (items_[i].target != items_[i].level || wants_light(items_[i])))
+      order.push_back(i);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const bool there_a = items_[a].level >= 0, there_b = items_[b].level >= 0;
     return there_a != there_b ? there_b : items_[a].rank < items_[b].rank;
@@ -148,48 +153,61 @@ void SceneImages::ask_for_more() {
   }
 }
 
+// Whether maps that are there are to be made anew for lamps as they shine now.
+bool SceneImages::wants_light(const Item& item) const {
+  return is_map(item.name.kind) && item.level >= 0 && item.level == item.target && !is_lit(item.name) &&
+         (options_.background || item.asked_for);
+}
+
 // Unless there is no room for it yet.
 void SceneImages::begin(std::size_t index) {
   Item& item = items_[index];
   const int level = item.target;
-  const std::uint64_t bytes = item.bytes[static_cast<std::size_t>(level)];
-  if (!account_.has_room(bytes) && item.level >= 0) drop(item);  // there is no room for both
+  const auto light_alone = [&] { return item.level == level && item.geometry == source_.geometry(); };
+  const auto bytes_of = [&] {
+    return light_alone() ? source_.light_bytes(item.name, level) : item.bytes[static_cast<std::size_t>(level)];
+  };
+  if (!account_.has_room(bytes_of()) && item.level >= 0) drop(item);  // there is no room for both
+  const bool again = item.level == level, alone = light_alone();
+  const std::uint64_t bytes = bytes_of();
   if (!account_.take(bytes)) return;
   item.coming = level;
   ++in_flight_;
   bytes_in_flight_ += bytes;
-  background_.add([this, index, level, name = item.name] {
-    Made made{index, level, source_.prepare(name, level)};
-    made_.put(std::move(made));
+  if (again) again_in_flight_ += bytes;
+  background_.add([=, this, name = item.name] {
+    made_.put(
+        {index, level, again, alone, bytes, alone ? source_.prepare_light(name, level) : source_.prepare(name, level)});
   });
 }
 
 void SceneImages::receive(std::vector<Error>& errors) {
   for (Made& made : made_.take()) {
     Item& item = items_[made.item];
-    const std::uint64_t bytes = item.bytes[static_cast<std::size_t>(made.level)];
-    if (made.image && item.target == made.level) {
-      uploads_.push_back({made.item, made.level, std::move(*made.image), {}, 0});  // in flight until it is there
-      continue;
+    if (made.image && item.target == made.level && (!made.light_alone || item.level == made.level)) {
+      uploads_.push_back(
+          {made.item, made.level, made.again, made.light_alone, made.bytes, std::move(*made.image), {}, 0});
+      continue;  // in flight until it is there
     }
     --in_flight_;
-    bytes_in_flight_ -= bytes;
+    bytes_in_flight_ -= made.bytes;
+    if (made.again) again_in_flight_ -= made.bytes;
     if (!made.image) {
-      give_up(made.item, std::move(made.image).error(), errors);
+      give_up(made, errors);
     } else {  // things have changed meanwhile
-      account_.give_back(bytes);
+      account_.give_back(made.bytes);
       item.coming = -1;
     }
   }
 }
 
-void SceneImages::give_up(std::size_t index, Error error, std::vector<Error>& errors) {
-  Item& item = items_[index];
-  account_.give_back(item.bytes[static_cast<std::size_t>(item.coming)]);
+void SceneImages::give_up(const Made& made, std::vector<Error>& errors) {
+  Item& item = items_[made.item];
+  account_.give_back(made.bytes);
   item.coming = -1;
   item.failed = true;
   plan_is_due_ = true;
-  errors.push_back(std::move(error));
+  errors.push_back(made.image.error());
 }
 
 std::vector<Error> SceneImages::advance(Clock::duration budget) {
@@ -233,7 +251,7 @@ bool SceneImages::step_upload(Clock::time_point end) {
     if (Clock::now() >= end) return false;
   }
   --in_flight_;
-  bytes_in_flight_ -= items_[upload.item].bytes[static_cast<std::size_t>(upload.level)];
+  bytes_in_flight_ -= upload.bytes;
   settle(upload);
   uploads_.erase(first);
   return Clock::now() < end;
@@ -242,9 +260,20 @@ bool SceneImages::step_upload(Clock::time_point end) {
 // What was uploaded takes its place.
 void SceneImages::settle(Upload& upload) {
   Item& item = items_[upload.item];
+  item.coming = -1;
+  if (upload.again) {
+    again_in_flight_ -= upload.bytes;
+    light_came_ = true;
+  }
+  if (upload.light_alone) {  // it takes the place of as many bytes
+    account_.give_back(upload.bytes);
+    if (item.level != upload.level) return;  // they have left meanwhile
+  }
+  item.lights = upload.image.lights;
+  if (!upload.light_alone) item.geometry = upload.image.geometry;
+  if (upload.light_alone) return item.name.kind == ImageKind::kMaps ? settle_maps(upload) : settle_surround(upload);
   if (item.level >= 0) drop(item);
   item.level = upload.level;
-  item.coming = -1;
   if (item.target < 0) plan_is_due_ = true;  // not wanted any more: its room is others'
   const std::uint32_t i = item.name.index;
   auto& textures = upload.textures;
@@ -260,22 +289,11 @@ void SceneImages::settle(Upload& upload) {
     case ImageKind::kLight:
       settle_light(i, upload.image, textures);
       break;
-    case ImageKind::kMaps: {
-      ReflectorMaps& maps = maps_[i];
-      maps.means = upload.image.means;
-      for (std::size_t e = 0; e < upload.image.map_scales.size(); ++e)
-        maps.elements.push_back({std::move(textures[3 * e].array), std::move(textures[3 * e + 1].array),
-                                 std::move(textures[3 * e + 2].array), std::move(upload.image.map_scales[e]),
-                                 std::move(upload.image.map_sizes[e]), Vec3(1)});
-      maps.baked_radiance = maps.means.radiance;
-      tint_maps(i);
+    case ImageKind::kMaps:
+      settle_maps(upload);
       break;
-    }
     case ImageKind::kSurround:
-      surrounds_[i] = std::move(upload.image.surround);
-      surrounds_[i].light = std::move(textures[0].texture);
-      surrounds_[i].inverse_distance = std::move(textures[1].texture);
-      tint_surround(i);
+      settle_surround(upload);
       break;
   }
   if (is_map(item.name.kind)) map_bytes_ += item.bytes[static_cast<std::size_t>(item.level)];
@@ -295,15 +313,18 @@ const LoadedLightmap& SceneImages::light(std::uint32_t index) const {
 
 Result<const MapPoints*> SceneImages::points(std::uint32_t radiance_map) {
   const auto found = points_.find(radiance_map);
-  if (found != points_.end()) return &found->second;
-  ORIEL_TRY(const RadianceMap map, source_.radiance_map(radiance_map));
+  if (found != points_.end() && found->second.lights == source_.lights()) return &found->second;
+  std::uint64_t lights = 0;
+  ORIEL_TRY(const RadianceMap map, source_.lit_map(radiance_map, lights));
   TextureData data = map_points_data(map);
-  if (!account_.take(data.bytes())) return nullptr;
-  map_bytes_ += data.bytes();
-  points_bytes_ += data.bytes();
-  plan_is_due_ = true;
-  MapPoints points{upload_texture(std::move(data)), divide_points(map)};
-  return &points_.emplace(radiance_map, std::move(points)).first->second;
+  if (found == points_.end()) {
+    if (!account_.take(data.bytes())) return nullptr;
+    map_bytes_ += data.bytes();
+    points_bytes_ += data.bytes();
+    plan_is_due_ = true;
+  }
+  MapPoints points{upload_texture(std::move(data)), divide_points(map), lights};
+  return &points_.insert_or_assign(radiance_map, std::move(points)).first->second;
 }
 
 Result<const LightmapPage*> SceneImages::page(std::uint32_t index, const LightmapPage& in_pack) {
@@ -342,7 +363,7 @@ void SceneImages::use_mipmaps(bool on) {
 LoadingState SceneImages::state() const {
   LoadingState out;
   out.busy = plan_is_due_;
-  out.used = account_.used();
+  out.used = account_.used() - again_in_flight_;
   out.most_used = account_.most_used();
   out.limit = account_.limit();
   for (const Item& item : items_) {
@@ -356,6 +377,7 @@ LoadingState SceneImages::state() const {
     out.wanted += bytes;
     out.there += item.level == target ? bytes : 0;
     out.busy = out.busy || item.level != target;
+    out.following = out.following || wants_light(item);
   }
   const DeferredImages* deferred = source_.deferred();
   out.checking = options_.background && deferred != nullptr && next_check_ < deferred->sections();

@@ -26,18 +26,13 @@ struct LoadedLightmap {
 struct ReflectorMaps {
   std::vector<MapArray> elements;
   MapMeans means;
-  Vec3 baked_radiance{0};  // means.radiance as the lamps were baked
-};
-
-// How many times what was baked the light is on average that maps show: by reflector, by surround map.
-struct MapFactors {
-  std::vector<Vec3> reflectors, surrounds;
 };
 
 // A radiance map to be drawn as points.
 struct MapPoints {
   gpu::Texture2d texels;
   std::vector<PointNode> nodes;
+  std::uint64_t lights = 0;  // ImageSource::lights() that it was made for
 };
 
 struct LoadingOptions {
@@ -79,6 +74,13 @@ class SceneImages {
   // call, else all that nobody wants after it.
   void begin_wants();
   bool has(const ImageName& name) const { return at(name).level >= 0; }
+  // Whether maps that are there show lamps as they shine now.
+  bool is_lit(const ImageName& maps) const {
+    return at(maps).lights == source_.lights() && at(maps).geometry == source_.geometry();
+  }
+  // Whether any came to do so in the background since a frame was begun.
+  bool has_light_news() const { return light_came_; }
+  void begin_frame() { light_came_ = false; }
   bool in_background() const { return options_.background; }
 
   // What stands for it where it is not there: grey, flat, the mean light of the others.
@@ -93,8 +95,9 @@ class SceneImages {
   // null until it is there. in_pack: the pack's, which has it where it is not deferred.
   Result<const LightmapPage*> page(std::uint32_t index, const LightmapPage& in_pack);
 
-  // Pages of light and maps show lamps that shine so many times as they were baked, by group; those that are there at
-  // once. Maps do on average. added: what is added to pages, or null.
+  // Pages of light and maps show lamps that shine so many times as they were baked, by group; pages that are there at
+  // once. Maps that are there follow: in the background one after the other, else once they are wanted and is_lit()
+  // was seen to by finish(). added: what is added to pages, or null.
   Status set_lights(std::span<const Vec3> factors, MapFactors of_maps, std::shared_ptr<const PageChanges> added);
 
   void use_mipmaps(bool on);
@@ -111,18 +114,24 @@ class SceneImages {
     float rank = 1e9f;
     bool wanted = true, asked_for = false;  // the latter: since begin_wants()
     bool failed = false;
-    int level = -1;   // on the device; -1: none
-    int target = -1;  // that it should have; -1: none
-    int coming = -1;  // being made ready or uploaded; -1: none
+    int level = -1;                          // on the device; -1: none
+    int target = -1;                         // that it should have; -1: none
+    int coming = -1;                         // being made ready or uploaded; -1: none
+    std::uint64_t lights = 0, geometry = 0;  // of maps: ImageSource::lights() and so on that the level was made for
   };
   struct Made {
     std::size_t item = 0;
     int level = 0;
+    bool again = false;        // maps that are there are made anew, for lamps
+    bool light_alone = false;  // of these
+    std::uint64_t bytes = 0;   // on the device, that were taken for it
     Result<PreparedImage> image = tl::unexpected<Error>(Error{});
   };
   struct Upload {
     std::size_t item = 0;
     int level = 0;
+    bool again = false, light_alone = false;
+    std::uint64_t bytes = 0;
     PreparedImage image;
     std::vector<TextureUpload> textures;
     std::size_t next = 0;
@@ -133,16 +142,17 @@ class SceneImages {
   void plan();
   void drop(Item& item);
   void ask_for_more();
+  bool wants_light(const Item& item) const;
   void begin(std::size_t item);
   void receive(std::vector<Error>& errors);
-  void give_up(std::size_t item, Error error, std::vector<Error>& errors);
+  void give_up(const Made& made, std::vector<Error>& errors);
   bool step_upload(Clock::time_point end);
   void check_more();
   void settle(Upload& upload);
   void settle_light(std::uint32_t index, PreparedImage& image, std::vector<TextureUpload>& textures);
   Status show_lights(std::uint32_t index);
-  void tint_maps(std::uint32_t reflector);
-  void tint_surround(std::uint32_t index);
+  void settle_maps(Upload& upload);
+  void settle_surround(Upload& upload);
 
   ImageSource source_;
   LoadingOptions options_;
@@ -152,13 +162,13 @@ class SceneImages {
   std::vector<ImageUse> uses_;
   bool plan_is_due_ = true;
   std::size_t in_flight_ = 0;
-  std::uint64_t bytes_in_flight_ = 0, map_bytes_ = 0;
+  std::uint64_t bytes_in_flight_ = 0, again_in_flight_ = 0, map_bytes_ = 0;  // the second: of maps that are there
+  bool light_came_ = false;                                                  // for these, and nobody has asked since
   std::vector<Upload> uploads_;
   std::vector<gpu::Texture2d> colors_, normals_;
   std::vector<LoadedLightmap> lights_;
   std::vector<ReflectorMaps> maps_;
   std::vector<SurroundTextures> surrounds_;
-  MapFactors map_factors_;
   std::map<std::uint32_t, MapPoints> points_;
   std::uint64_t points_bytes_ = 0;
   struct KnownPage {

@@ -33,27 +33,40 @@ Status SceneImages::show_lights(std::uint32_t index) {
   return {};
 }
 
+// The same maps with other light where that alone came.
+void SceneImages::settle_maps(Upload& upload) {
+  ReflectorMaps& maps = maps_[items_[upload.item].name.index];
+  PreparedImage& image = upload.image;
+  maps.means = image.means;
+  const std::size_t each = upload.light_alone ? 1 : 3;
+  maps.elements.resize(image.map_scales.size());
+  for (std::size_t e = 0; e < maps.elements.size(); ++e) {
+    MapArray& element = maps.elements[e];
+    element.light = std::move(upload.textures[each * e].array);
+    element.scale = std::move(image.map_scales[e]), element.sizes = std::move(image.map_sizes[e]);
+    if (upload.light_alone) continue;
+    element.disparity = std::move(upload.textures[each * e + 1].array);
+    element.ranges = std::move(upload.textures[each * e + 2].array);
+  }
+}
+
+void SceneImages::settle_surround(Upload& upload) {
+  SurroundTextures& map = surrounds_[items_[upload.item].name.index];
+  gpu::Texture2d distances =
+      upload.light_alone ? std::move(map.inverse_distance) : std::move(upload.textures[1].texture);
+  map = std::move(upload.image.surround);
+  map.light = std::move(upload.textures[0].texture);
+  map.inverse_distance = std::move(distances);
+}
+
 Status SceneImages::set_lights(std::span<const Vec3> factors, MapFactors of_maps,
                                std::shared_ptr<const PageChanges> added) {
-  source_.set_lights(factors, std::move(added));
-  map_factors_ = std::move(of_maps);
+  source_.set_lights(factors, std::move(of_maps), std::move(added));
   for (std::uint32_t i = 0; i < lights_.size(); ++i)
     if (has({ImageKind::kLight, i})) ORIEL_TRY_VOID(show_lights(i));
-  for (std::uint32_t i = 0; i < maps_.size(); ++i) tint_maps(i);
-  for (std::uint32_t i = 0; i < surrounds_.size(); ++i) tint_surround(i);
+  // Those that nobody has asked for since are not waited for.
+  for (Item& item : items_) item.asked_for = item.asked_for && options_.background;
   return {};
-}
-
-void SceneImages::tint_maps(std::uint32_t reflector) {
-  if (reflector >= map_factors_.reflectors.size()) return;
-  ReflectorMaps& maps = maps_[reflector];
-  const Vec3 factor = map_factors_.reflectors[reflector];
-  maps.means.radiance = factor * maps.baked_radiance;
-  for (MapArray& element : maps.elements) element.tint = factor;
-}
-
-void SceneImages::tint_surround(std::uint32_t index) {
-  if (index < map_factors_.surrounds.size()) surrounds_[index].tint = map_factors_.surrounds[index];
 }
 
 }  // namespace oriel

@@ -31,7 +31,6 @@ struct SurroundTextures {
   int size = 1;
   float scale = 1;
   Vec2 range{0};
-  Vec3 tint{1};  // of light, for lamps that shine otherwise than it shows
 };
 struct SurroundData {
   TextureData light, inverse_distance;

@@ -182,7 +182,7 @@ void CurvedPass::set_lobe(const gpu::Program& program, const FrameContext& conte
   program.set("u_centre", scene.pack().surround_maps[reflector.map].centre);
   program.set("u_size", map.size);
   program.set("u_light", kCurvedLight);
-  program.set("u_light_scale", map.scale * map.tint);
+  program.set("u_light_scale", Vec3(map.scale));  // colours are for walkthroughs in a browser
   program.set("u_inverse_distance", kCurvedDistance);
   program.set("u_range", map.range);
   program.set("u_taps", kCurvedTaps);

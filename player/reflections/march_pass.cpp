@@ -179,7 +179,6 @@ void MarchPass::choose_maps(const FrameContext& context, const ReflectorElement&
   }
   program_.set("u_eyes", eyes);
   program_.set("u_maps", sizes);
-  program_.set("u_tint", array.tint);
   program_.set("u_count", static_cast<int>(chosen.size()));
   program_.set("u_blended", options.maps_per_element);
   stats.maps +=

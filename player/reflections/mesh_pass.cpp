@@ -140,7 +140,7 @@ void MeshPass::draw_element(const FrameContext& context, const GpuReflector& ref
     program_.set("u_upper", map.upper);
     program_.set("u_size", Vec2(array.sizes[layer]));
     program_.set("u_layer", static_cast<float>(layer));
-    program_.set("u_light_scale", array.scale[layer] * array.tint);
+    program_.set("u_light_scale", array.scale[layer]);
     program_.set("u_behind", unit * static_cast<float>(i) / static_cast<float>(kMostMapsPerElement));
     mesh.draw();
     ++stats.draws;

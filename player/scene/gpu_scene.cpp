@@ -215,7 +215,8 @@ Result<bool> GpuScene::may_show_maps(const GpuReflector& reflector) {
 Result<bool> GpuScene::bring_maps(const GpuReflector& reflector) {
   const ImageName name{ImageKind::kMaps, reflector.index};
   images_->want(name);
-  if (!images_->has(name)) ORIEL_TRY_VOID(first_of(advance_all()));
+  const bool late = !images_->in_background() && !images_->is_lit(name);
+  if (!images_->has(name) || late) ORIEL_TRY_VOID(first_of(advance_all()));
   if (!images_->has(name)) return false;
   const MapMeans& means = images_->maps(reflector.index).means;
   reflectors_[reflector.index].mean_radiance = means.radiance;
@@ -226,7 +227,8 @@ Result<bool> GpuScene::bring_maps(const GpuReflector& reflector) {
 Result<bool> GpuScene::bring_surround_map(std::uint32_t index) {
   const ImageName name{ImageKind::kSurround, index};
   images_->want(name);
-  if (!images_->has(name) && !images_->in_background()) ORIEL_TRY_VOID(first_of(advance_all()));
+  const bool is_ready = images_->has(name) && images_->is_lit(name);
+  if (!is_ready && !images_->in_background()) ORIEL_TRY_VOID(first_of(advance_all()));
   return images_->has(name);
 }
 
@@ -371,7 +373,7 @@ bool GpuScene::fits_halves() const {
 bool GpuScene::fit_halves(const GpuReflector& reflector) const {
   float most = 0;
   for (const MapArray& array : images_->maps(reflector.index).elements)
-    for (const float scale : array.scale) most = std::max(most, scale * kOfScale * max_component(array.tint));
+    for (const float scale : array.scale) most = std::max(most, scale * kOfScale);
   return most <= kMostInHalves;
 }
 

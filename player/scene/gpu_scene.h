@@ -75,8 +75,8 @@ class GpuScene {
   // or none: once, there. Takes time where that changes: light of lightmaps is added up anew, for lamps that moved it
   // is computed (live_lamps.h). Errors of images.
   Status set_lamps(std::span<const Vec3> factors, std::span<const MoverPose> poses, const LiveSettings& live);
-  // In the background the light of a lamp that moved comes later, coarse before fine: whether the next set_lamps()
-  // shows more of it.
+  // In the background the light of a lamp that moved comes later, coarse before fine, and maps follow lamps one after
+  // the other: whether the next set_lamps() and the frame after it show more of it.
   bool has_live_news() const;
   // What is to be told of lamps that moved, each once.
   std::vector<std::string> take_live_news();
@@ -200,6 +200,7 @@ class GpuScene {
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   void begin_fewer();
   void move_lamps(std::span<const MoverPose> poses);
+  MapFactors factors_of_maps() const;
   Pack pack_;
   std::uint64_t serial_ = 0, geometry_serial_ = 0;
   SeenGroups seen_groups_;

@@ -27,7 +27,7 @@ std::uint64_t next_scene_serial() {
 GpuScene::~GpuScene() = default;
 
 bool GpuScene::has_live_news() const {
-  return live_->ready();
+  return live_->ready() || images_->has_light_news();
 }
 
 std::vector<std::string> GpuScene::take_live_news() {
@@ -37,6 +37,7 @@ std::vector<std::string> GpuScene::take_live_news() {
 }
 
 Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverPose> poses, const LiveSettings& live) {
+  images_->begin_frame();
   const std::size_t groups = pack_.light_groups.size();
   std::vector<Vec3> wanted(groups, Vec3(1));
   if (factors.size() == groups) wanted.assign(factors.begin(), factors.end());
@@ -55,12 +56,28 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
   bright_lights_ = placed_lights(pack_, lamps_);
   for (GpuReflector& r : reflectors_)
     r.emitters = upload_emitters(pack_, pack_.reflectors[r.index], r.reflector_from_pack, r.size);
-  MapFactors of_maps;
+  return images_->set_lights(lights_, factors_of_maps(), live_->changes(lights_));
+}
+
+// Lamps that have moved do not shine where maps show them.
+MapFactors GpuScene::factors_of_maps() const {
+  MapFactors out;
+  out.materials.resize(pack_.materials.size());
+  for (std::size_t g = 0; g < pack_.light_groups.size(); ++g)
+    for (const std::uint32_t m : pack_.light_groups[g].materials)
+      out.materials[m] = is_rest(lamps_[g]) ? lights_[g] : Vec3(0);
+  for (std::size_t g = 0; g < pack_.light_groups.size(); ++g)
+    if (const LightGroup& group = pack_.light_groups[g]; !is_rest(lamps_[g]))
+      out.moved.push_back(
+          std::make_shared<const MovedLamp>(pack_, group, shape_of_lamp(pack_, group).parts, lamps_[g]));
+  if (!out.moved.empty()) out.geometry = geometry_serial_;
+  for (int c = 0; c < 3; ++c)
+    if (baked_.sky()[c] > 0) out.sky[c] = pack_.sky[c] / baked_.sky()[c];
   for (std::size_t r = 0; r < pack_.reflectors.size(); ++r)
-    of_maps.reflectors.push_back(mean_factor(pack_, lights_, &LightGroup::reflectors, r));
+    out.reflectors.push_back(mean_factor(pack_, lights_, &LightGroup::reflectors, r));
   for (std::size_t m = 0; m < pack_.surround_maps.size(); ++m)
-    of_maps.surrounds.push_back(mean_factor(pack_, lights_, &LightGroup::surrounds, m));
-  return images_->set_lights(lights_, std::move(of_maps), live_->changes(lights_));
+    out.surrounds.push_back(mean_factor(pack_, lights_, &LightGroup::surrounds, m));
+  return out;
 }
 
 // What is drawn of them. The pack's mesh stays as it was baked: poses count from there.

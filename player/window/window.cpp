@@ -103,7 +103,7 @@ class Loop {
       if (const auto news = watch.news()) fmt::print(stderr, "oriel-play: {}\n", *news);
       if (drawn_ != Pace::Draw::kKeep) meter_.add(static_cast<float>(1000 * seconds_since(last)));
       rest(last);
-      if (meter_.loading.busy) std::this_thread::sleep_until(last + kLoadingFrame);
+      if (meter_.loading.busy || meter_.loading.following) std::this_thread::sleep_until(last + kLoadingFrame);
       if (++frames == arguments_.frames) return {};
     }
   }

@@ -3,7 +3,7 @@ uniform sampler2DArray u_light;      // of the maps, over u_light_scale
 uniform sampler2DArray u_disparity;
 uniform vec2 u_size;                 // of the map, pixels
 uniform float u_layer;
-uniform vec3 u_light_scale;
+uniform float u_light_scale;
 uniform vec4 u_depth_row;  // view-space -z of a mirrored point = dot(row, point)
 uniform float u_ortho;     // 1: distances run along the view direction
 uniform float u_closest;   // 1 / distance is never stored smaller: marks the sky as seen

@@ -14,7 +14,6 @@ uniform sampler2DArray u_ranges;
 uniform int u_count;
 uniform int u_blended;       // so many are asked in any case
 uniform vec4 u_eyes[kMaps];  // reflector space; w: weight
-uniform vec3 u_tint;         // of light, for lamps that shine otherwise than the maps show
 uniform vec4 u_maps[kMaps];  // width, height, layer, scale of light
 uniform vec2 u_lower;        // the element
 uniform vec2 u_upper;
@@ -97,5 +96,5 @@ void main() {
       i = 0;
     }
   } while (i < count && (i < u_blended || !sure));
-  if (total > 0.0) o_light = sum / total * vec4(u_measure ? vec3(1.0) : u_tint, 1.0);
+  if (total > 0.0) o_light = sum / total;
 }

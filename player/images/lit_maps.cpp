@@ -1,0 +1,187 @@
+// Radiance and surround maps as lamps shine now.
+#include <algorithm>
+#include <new>
+
+#include "formats/core/parallel.h"
+#include "player/images/image_source.h"
+
+namespace oriel {
+namespace {
+
+// Sums over maps that come one after the other.
+class MeansOfMaps {
+ public:
+  void add(const RadianceMap& map) {
+    for (std::size_t i = 0; i < map.radiance.size(); ++i) {
+      if (map.valid[i] == 0 || !is_finite(map.radiance[i])) continue;
+      radiance_ += DVec3(map.radiance[i]);
+      count_ += 1;
+      if (map.valid[i] == 2 || !(map.disparity[i] > 0)) continue;
+      const Vec2 share((static_cast<float>(i % map.width) + 0.5f) / static_cast<float>(map.width),
+                       (static_cast<float>(i / map.width) + 0.5f) / static_cast<float>(map.height));
+      const Vec3 to_plane = Vec3(glm::mix(map.lower, map.upper, share), 0) - map.eye;
+      distance_ += double{glm::length(to_plane)} * (1 / double{map.disparity[i]} - 1);
+      surfaces_ += 1;
+    }
+  }
+  MapMeans means() const {
+    MapMeans out;
+    if (count_ > 0) out.radiance = Vec3(radiance_ / count_);
+    if (surfaces_ > 0) out.distance = static_cast<float>(distance_ / surfaces_);
+    return out;
+  }
+
+ private:
+  DVec3 radiance_{0};
+  double count_ = 0, distance_ = 0, surfaces_ = 0;
+};
+
+bool is_one(const Vec3& factor) {
+  return factor == Vec3(1);
+}
+
+bool as_baked(const MapFactors& factors) {
+  return factors.moved.empty() && is_one(factors.sky) &&
+         std::ranges::all_of(factors.materials,
+                             [](const std::optional<Vec3>& factor) { return is_one(factor.value_or(Vec3(1))); });
+}
+
+LightmapPage as_lightmap(const HalfPage& page) {
+  LightmapPage out;
+  out.width = page.width, out.height = page.height;
+  out.cell = page.cell, out.detail_width = page.detail_width, out.detail_height = page.detail_height;
+  PageChange light = light_of(page);
+  out.irradiance = std::move(light.light), out.detail = std::move(light.detail);
+  return out;
+}
+
+}  // namespace
+
+// of: what its lights and geometry are is put there.
+Result<ImageSource::LightOfMaps> ImageSource::light_of_maps(PreparedImage& of) const {
+  const std::scoped_lock lock(followed_->mutex);
+  of.lights = lights(), of.geometry = geometry();
+  if (followed_->lights != of.lights) {
+    ORIEL_TRY(followed_->light, make_light_of_maps(of.lights));
+    followed_->lights = of.lights;
+  }
+  return followed_->light;
+}
+
+std::uint64_t ImageSource::geometry() const {
+  const std::scoped_lock lock(lights_->mutex);
+  return lights_->of_maps.geometry;
+}
+
+// Of those lights or of later ones, which then are there when `lights` is asked for again.
+Result<ImageSource::LightOfMaps> ImageSource::make_light_of_maps(std::uint64_t lights) const {
+  auto out = std::make_shared<MapLights>();
+  bool baked = true;
+  {
+    const std::scoped_lock lock(lights_->mutex);
+    out->factors = lights_->of_maps;
+    baked = as_baked(out->factors) && std::ranges::all_of(lights_->factors, is_one) && !lights_->added;
+  }
+  if (baked) return LightOfMaps();
+  if (!followed_->baked) {
+    auto pages = std::make_shared<std::vector<LightmapPage>>();
+    for (std::uint32_t p = 0; p < pages_.size(); ++p) {
+      ORIEL_TRY(const auto page, baked_page(p));
+      pages->push_back(as_lightmap(*page));
+    }
+    followed_->baked = std::move(pages);
+  }
+  out->baked = followed_->baked;
+  out->reflectance = map_light_->reflectance();
+  for (std::uint32_t p = 0; p < pages_.size(); ++p) {
+    ORIEL_TRY(const HalfPage page, light_of_page(p, otherwise(p, lights)));
+    out->now.push_back(as_lightmap(page));
+  }
+  return LightOfMaps(std::move(out));
+}
+
+Result<RadianceMap> ImageSource::radiance_map(std::uint32_t index) const {
+  if (deferred_) return deferred_->radiance_map(index);
+  return pack_->radiance_maps[index];
+}
+
+Result<RadianceMap> ImageSource::lit_map(std::uint32_t index, std::uint64_t& lights) const {
+  PreparedImage of;
+  ORIEL_TRY(const LightOfMaps light, light_of_maps(of));
+  lights = of.lights;
+  ORIEL_TRY(RadianceMap map, radiance_map(index));
+  if (light) map_light_->shine(*light, index, map);
+  return map;
+}
+
+Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarser, Parts parts) const {
+  PreparedImage out;
+  ORIEL_TRY(const LightOfMaps light, light_of_maps(out));
+  MeansOfMaps means;
+  for (const ReflectorElement& element : elements_[reflector]) {
+    std::vector<RadianceMap> maps(element.maps.size());
+    std::vector<Status> loaded(maps.size());
+    for_each_parallel(maps.size(), core_count(), [&](std::size_t m) {
+      if (*abandoned_) {
+        loaded[m] = fail(ErrorCode::kStopped, "images", "nobody waits for them any more");
+        return;
+      }
+      Result<RadianceMap> map = radiance_map(element.maps[m]);
+      if (map && light) map_light_->shine(*light, element.maps[m], *map);
+      if (map)
+        maps[m] = std::move(*map);
+      else
+        loaded[m] = tl::unexpected<Error>(std::move(map).error());
+    });
+    for (const Status& status : loaded) ORIEL_TRY_VOID(status);
+    std::vector<const RadianceMap*> layers;
+    std::vector<IVec2> sizes;
+    for (RadianceMap& map : maps) {
+      means.add(map);
+      if (coarser > 0) map = coarser_map(map, coarser);
+      layers.push_back(&map);
+      sizes.emplace_back(static_cast<int>(map.width), static_cast<int>(map.height));
+    }
+    MapArrayData data = parts == Parts::kAll ? MapArrayData::make(layers) : MapArrayData::light_of(layers);
+    out.textures.push_back(std::move(data.light));
+    if (parts == Parts::kAll)
+      for (TextureData* part : {&data.disparity, &data.ranges}) out.textures.push_back(std::move(*part));
+    out.map_scales.push_back(std::move(data.scale));
+    out.map_sizes.push_back(std::move(sizes));
+  }
+  out.means = means.means();
+  return out;
+}
+
+Result<PreparedImage> ImageSource::make_surround(std::uint32_t index, Parts parts) const {
+  PreparedImage out;
+  ORIEL_TRY(const LightOfMaps light, light_of_maps(out));
+  ORIEL_TRY(SurroundMap map,
+            deferred_ ? deferred_->surround_map(index) : Result<SurroundMap>(pack_->surround_maps[index]));
+  if (light) map_light_->shine(*light, index, map);
+  SurroundData data = surround_data(map);
+  out.textures.push_back(std::move(data.light));
+  if (parts == Parts::kAll) out.textures.push_back(std::move(data.inverse_distance));
+  out.surround = std::move(data.place);
+  return out;
+}
+
+Result<PreparedImage> ImageSource::prepare_light(const ImageName& maps, int coarser) const {
+  return guarded(maps, coarser, Parts::kLight);
+}
+
+std::size_t ImageSource::light_bytes(const ImageName& maps, int coarser) const {
+  if (maps.kind != ImageKind::kMaps) return bytes(maps, coarser);
+  std::size_t sum = 0;
+  for (const ReflectorElement& element : elements_[maps.index]) sum += map_light_bytes(map_sizes(element, coarser));
+  return sum;
+}
+
+void ImageSource::forget(const ImageName& maps) const {
+  if (maps.kind == ImageKind::kSurround) map_light_->forget_surround(maps.index);
+  if (maps.kind != ImageKind::kMaps) return;
+  for (const ReflectorElement& element : elements_[maps.index])
+    for (const std::uint32_t map : element.maps) map_light_->forget_map(map);
+}
+
+}  // namespace oriel
