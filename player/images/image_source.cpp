@@ -155,14 +155,14 @@ void ImageSource::set_lights(std::span<const Vec3> factors, MapFactors of_maps,
                              std::shared_ptr<const PageChanges> changes) {
   const std::scoped_lock lock(lights_->mutex);
   lights_->of_maps = std::move(of_maps);
-  lights_->factors.assign(factors.begin(), factors.end());
-  lights_->added = std::move(changes);
-  ++lights_->changes;
+  lights_->now.factors.assign(factors.begin(), factors.end());
+  lights_->now.added = std::move(changes);
+  ++lights_->now.changes;
 }
 
 std::uint64_t ImageSource::lights() const {
   const std::scoped_lock lock(lights_->mutex);
-  return lights_->changes;
+  return lights_->now.changes;
 }
 
 // Kept: its lamps change again and again.
@@ -178,11 +178,18 @@ Result<std::shared_ptr<const HalfPage>> ImageSource::baked_page(std::uint32_t pa
 }
 
 ImageSource::Otherwise ImageSource::otherwise(std::uint32_t page, std::uint64_t& lights) const {
-  Otherwise of;
+  Shining now;
   {
     const std::scoped_lock lock(lights_->mutex);
-    lights = lights_->changes, of.factors = lights_->factors, of.added = lights_->added;
+    now = lights_->now;
   }
+  lights = now.changes;
+  return otherwise(page, now);
+}
+
+ImageSource::Otherwise ImageSource::otherwise(std::uint32_t page, const Shining& now) const {
+  Otherwise of;
+  of.factors = now.factors, of.added = now.added;
   const auto groups = std::ranges::find(page_groups_, page, &PageGroups::page);
   const bool as_baked = std::ranges::all_of(of.factors, [](const Vec3& factor) { return factor == Vec3(1); });
   if (groups != page_groups_.end() && !as_baked) of.groups = &*groups;

@@ -97,7 +97,14 @@ class ImageSource {
     const PageGroups* groups = nullptr;  // null: the factors change nothing
     const PageChange* change = nullptr;  // null: nothing is added
   };
+  // As lamps shine, at one time.
+  struct Shining {
+    std::uint64_t changes = 0;
+    std::vector<Vec3> factors;
+    std::shared_ptr<const PageChanges> added;
+  };
   Otherwise otherwise(std::uint32_t page, std::uint64_t& lights) const;
+  Otherwise otherwise(std::uint32_t page, const Shining& now) const;
   Result<LightmapPage> make_lit_page(std::uint32_t page, std::uint64_t& lights) const;
   Result<HalfPage> light_of_page(std::uint32_t page, const Otherwise& of) const;
   Result<std::shared_ptr<const HalfPage>> baked_page(std::uint32_t page) const;
@@ -106,7 +113,7 @@ class ImageSource {
   Result<RadianceMap> radiance_map(std::uint32_t index) const;
   std::vector<IVec2> map_sizes(const ReflectorElement& element, int coarser) const;
   Result<LightOfMaps> light_of_maps(PreparedImage& of) const;
-  Result<LightOfMaps> make_light_of_maps(std::uint64_t lights) const;
+  LightOfMaps make_light_of_maps(const Shining& now, const MapFactors& of_maps) const;
   const Pack* pack_ = nullptr;  // null where images are deferred
   std::shared_ptr<const DeferredImages> deferred_;
   std::vector<std::vector<ReflectorElement>> elements_;
@@ -118,9 +125,7 @@ class ImageSource {
   // What lamps shine now, and pages as they were baked, once any shines otherwise.
   struct Lights {
     std::mutex mutex;
-    std::uint64_t changes = 0;
-    std::vector<Vec3> factors;
-    std::shared_ptr<const PageChanges> added;
+    Shining now;
     std::map<std::uint32_t, std::shared_ptr<const HalfPage>> baked;
     MapFactors of_maps;
   };

@@ -55,15 +55,25 @@ LightmapPage as_lightmap(const HalfPage& page) {
   return out;
 }
 
+// For one of several jobs in the background.
+constexpr unsigned kThreads = 4;
+
 }  // namespace
 
-// of: what its lights and geometry are is put there.
+// of: what its lights and geometry is is put there.
 Result<ImageSource::LightOfMaps> ImageSource::light_of_maps(PreparedImage& of) const {
   const std::scoped_lock lock(followed_->mutex);
-  of.lights = lights(), of.geometry = geometry();
+  Shining now;
+  MapFactors of_maps;
+  {
+    const std::scoped_lock shining(lights_->mutex);
+    now = lights_->now, of_maps = lights_->of_maps;
+  }
+  of.lights = now.changes, of.geometry = of_maps.geometry;
   if (followed_->lights != of.lights) {
-    ORIEL_TRY(followed_->light, make_light_of_maps(of.lights));
+    followed_->light = make_light_of_maps(now, of_maps);
     followed_->lights = of.lights;
+    if (!followed_->light) followed_->baked.reset();
   }
   return followed_->light;
 }
@@ -73,31 +83,26 @@ std::uint64_t ImageSource::geometry() const {
   return lights_->of_maps.geometry;
 }
 
-// Of those lights or of later ones, which then are there when `lights` is asked for again.
-Result<ImageSource::LightOfMaps> ImageSource::make_light_of_maps(std::uint64_t lights) const {
-  auto out = std::make_shared<MapLights>();
-  bool baked = true;
-  {
-    const std::scoped_lock lock(lights_->mutex);
-    out->factors = lights_->of_maps;
-    baked = as_baked(out->factors) && std::ranges::all_of(lights_->factors, is_one) && !lights_->added;
-  }
-  if (baked) return LightOfMaps();
+// A page that cannot be read has no texels: what shows it follows on average.
+ImageSource::LightOfMaps ImageSource::make_light_of_maps(const Shining& now, const MapFactors& of_maps) const {
+  if (as_baked(of_maps) && std::ranges::all_of(now.factors, is_one) && !now.added) return {};
   if (!followed_->baked) {
     auto pages = std::make_shared<std::vector<LightmapPage>>();
     for (std::uint32_t p = 0; p < pages_.size(); ++p) {
-      ORIEL_TRY(const auto page, baked_page(p));
-      pages->push_back(as_lightmap(*page));
+      const auto page = baked_page(p);
+      pages->push_back(page ? as_lightmap(**page) : LightmapPage());
     }
     followed_->baked = std::move(pages);
   }
+  auto out = std::make_shared<MapLights>();
+  out->factors = of_maps;
   out->baked = followed_->baked;
   out->reflectance = map_light_->reflectance();
   for (std::uint32_t p = 0; p < pages_.size(); ++p) {
-    ORIEL_TRY(const HalfPage page, light_of_page(p, otherwise(p, lights)));
-    out->now.push_back(as_lightmap(page));
+    const auto page = light_of_page(p, otherwise(p, now));
+    out->now.push_back(page ? as_lightmap(*page) : LightmapPage());
   }
-  return LightOfMaps(std::move(out));
+  return out;
 }
 
 Result<RadianceMap> ImageSource::radiance_map(std::uint32_t index) const {
@@ -121,7 +126,7 @@ Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarse
   for (const ReflectorElement& element : elements_[reflector]) {
     std::vector<RadianceMap> maps(element.maps.size());
     std::vector<Status> loaded(maps.size());
-    for_each_parallel(maps.size(), core_count(), [&](std::size_t m) {
+    for_each_parallel(maps.size(), kThreads, [&](std::size_t m) {
       if (*abandoned_) {
         loaded[m] = fail(ErrorCode::kStopped, "images", "nobody waits for them any more");
         return;

@@ -9,11 +9,16 @@ namespace {
 
 constexpr float kDark = 1e-3f;      // lux: what is reflected of less says little of the surface
 constexpr std::size_t kRun = 4096;  // pixels that a thread takes at once
+constexpr unsigned kThreads = 2;    // of one map; several are made at once
+
+bool has_page(const MapLights& lights, std::size_t page) {
+  return page < lights.now.size() && !lights.now[page].irradiance.empty() && !(*lights.baked)[page].irradiance.empty();
+}
 
 template <class Map>
 void shine_all(const MapLights& lights, const std::vector<SeenPlace>& places, const Vec3& mean, Map& map) {
   const std::size_t count = std::min(places.size(), map.radiance.size());
-  for_each_parallel((count + kRun - 1) / kRun, core_count(), [&](std::size_t run) {
+  for_each_parallel((count + kRun - 1) / kRun, kThreads, [&](std::size_t run) {
     for (std::size_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i)
       if (map.valid[i] != 0) map.radiance[i] = light_now(map.radiance[i], places[i], lights, mean);
   });
@@ -25,7 +30,7 @@ void uncover(const MapLights& lights, const SeenPixels& seen, Map& map) {
   for (const SeenPixels::Behind& behind : seen.behind) {
     const std::uint16_t lamp = seen.places[behind.pixel].material;
     if (std::ranges::none_of(lights.factors.moved, [&](const auto& moved) { return moved->has(lamp); })) continue;
-    if (behind.place.page >= lights.now.size() || behind.place.material >= lights.reflectance.size()) continue;
+    if (!has_page(lights, behind.place.page) || behind.place.material >= lights.reflectance.size()) continue;
     map.radiance[behind.pixel] = lights.reflectance[behind.place.material] / kPi *
                                  irradiance_at(lights.now[behind.place.page], behind.place.uv());
     set_distance(map, behind.pixel, behind.distance);
@@ -36,7 +41,7 @@ template <class Map, class RayOf>
 void show(std::span<const MovedLamp* const> lamps, const RayOf& ray_of, Map& map) {
   if (lamps.empty()) return;
   const std::size_t count = map.radiance.size();
-  for_each_parallel((count + kRun - 1) / kRun, core_count(), [&](std::size_t run) {
+  for_each_parallel((count + kRun - 1) / kRun, kThreads, [&](std::size_t run) {
     for (std::size_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) {
       if (map.valid[i] == 0) continue;
       SeenRay ray = ray_of(i);
@@ -62,7 +67,7 @@ Vec3 light_now(const Vec3& baked, const SeenPlace& place, const MapLights& light
   const auto& materials = lights.factors.materials;
   const bool known = place.material < materials.size(), shines = known && materials[place.material].has_value();
   const Vec3 beyond = shines ? *materials[place.material] : mean;
-  if (place.page >= lights.now.size()) return baked * beyond;
+  if (!has_page(lights, place.page)) return baked * beyond;
   const Vec3 was = irradiance_at((*lights.baked)[place.page], place.uv());
   const Vec3 is = irradiance_at(lights.now[place.page], place.uv());
   const Vec3 colour = place.material < lights.reflectance.size() ? lights.reflectance[place.material] : Vec3(0.5f);

@@ -24,7 +24,7 @@ struct MapFactors {
   std::uint64_t geometry = 0;  // another one where lamps are elsewhere; 0: where they were baked
 };
 
-// Of all pages; no more than their light and finer cells.
+// Of all pages; no more than their light and finer cells. Those that cannot be read have no texels.
 struct MapLights {
   std::shared_ptr<const std::vector<LightmapPage>> baked;
   std::vector<LightmapPage> now;

@@ -167,7 +167,10 @@ void SceneImages::begin(std::size_t index) {
   const auto bytes_of = [&] {
     return light_alone() ? source_.light_bytes(item.name, level) : item.bytes[static_cast<std::size_t>(level)];
   };
-  if (!account_.has_room(bytes_of()) && item.level >= 0) drop(item);  // there is no room for both
+  if (!account_.has_room(bytes_of()) && item.level >= 0) {  // there is no room for both
+    if (item.level == level && in_flight_ > 0) return;      // others give theirs back first
+    drop(item);
+  }
   const bool again = item.level == level, alone = light_alone();
   const std::uint64_t bytes = bytes_of();
   if (!account_.take(bytes)) return;
@@ -197,6 +200,7 @@ void SceneImages::receive(std::vector<Error>& errors) {
     } else {  // things have changed meanwhile
       account_.give_back(made.bytes);
       item.coming = -1;
+      if (item.level < 0 && item.target < 0) source_.forget(item.name);
     }
   }
 }
@@ -205,9 +209,13 @@ void SceneImages::give_up(const Made& made, std::vector<Error>& errors) {
   Item& item = items_[made.item];
   account_.give_back(made.bytes);
   item.coming = -1;
+  errors.push_back(made.image.error());
+  if (made.again && item.level >= 0) {  // it stays as it is until lamps change again
+    item.lights = source_.lights();
+    return;
+  }
   item.failed = true;
   plan_is_due_ = true;
-  errors.push_back(made.image.error());
 }
 
 std::vector<Error> SceneImages::advance(Clock::duration budget) {
@@ -263,7 +271,7 @@ void SceneImages::settle(Upload& upload) {
   item.coming = -1;
   if (upload.again) {
     again_in_flight_ -= upload.bytes;
-    light_came_ = true;
+    light_came_ = options_.background;
   }
   if (upload.light_alone) {  // it takes the place of as many bytes
     account_.give_back(upload.bytes);

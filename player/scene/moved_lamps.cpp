@@ -63,6 +63,8 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
 MapFactors GpuScene::factors_of_maps() const {
   MapFactors out;
   out.materials.resize(pack_.materials.size());
+  for (std::size_t m = 0; m < pack_.materials.size(); ++m)
+    if (pack_.materials[m].unlit) out.materials[m] = Vec3(1);  // whatever the lamps do
   for (std::size_t g = 0; g < pack_.light_groups.size(); ++g)
     for (const std::uint32_t m : pack_.light_groups[g].materials)
       out.materials[m] = is_rest(lamps_[g]) ? lights_[g] : Vec3(0);
