@@ -169,8 +169,7 @@ class Loop {
     meter_.loading = scene_->images().state();  // with what the frame wanted
     adapt_exposure(metered_, dt_s, session_);
     if (beside_)
-      ORIEL_TRY_VOID(
-          beside_->draw(renderer_, meter_.loading.used, seen(width, height), session_, seconds_since(start_)));
+      ORIEL_TRY_VOID(beside_->draw(renderer_, images_shown(), seen(width, height), session_, seconds_since(start_)));
     if (std::exchange(session_.screenshot, false)) keep_screenshot(next_name(".png"), width, height);
     if (std::exchange(session_.light_screenshot, false)) keep_screenshot(next_name(".exr"), width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -240,8 +239,11 @@ class Loop {
   Status redraw(int width, int height) {
     ORIEL_TRY_VOID(renderer_.render(*scene_, view_of(width, height), session_.frame));
     if (!beside_) return {};
-    return beside_->draw(renderer_, meter_.loading.used, seen(width, height), session_, seconds_since(start_));
+    return beside_->draw(renderer_, images_shown(), seen(width, height), session_, seconds_since(start_));
   }
+
+  // Another number where other images are shown: while maps follow lamps, too.
+  std::uint64_t images_shown() const { return 2 * meter_.loading.used + (meter_.loading.following ? 1 : 0); }
 
   Other::Seen seen(int width, int height) const {
     const double time_s = arguments_.time_s + seconds_since(start_);
