@@ -1,4 +1,5 @@
 // The shade of movers in light from everywhere, beside closed forms.
+#include "formats/query/group_light.h"
 #include "player/movers/hemisphere_map.h"
 #include "tests/player/mover_fixture.h"
 
@@ -133,6 +134,26 @@ TEST_F(ShadeTest, PassesBecomeFewer) {
   EXPECT_EQ(draw(pack, camera, 64, 48, options_of(ShadeWork::kLists)).stats.shade.passes, 1u);
   const ShadeStats each = draw(pack, camera, 64, 48, options_of(ShadeWork::kEachLight)).stats.shade;
   EXPECT_EQ(each.passes, (each.lights + 6) / 7);
+}
+
+// Three quarters of the ceiling's light are of a lamp that lights all of the floor, a quarter is of another one.
+TEST_F(ShadeTest, FollowsLampsThatAreSwitched) {
+  Pack pack = room_scene();
+  std::vector<std::vector<LightmapPage>> light;
+  for (const Vec2& lux : {Vec2(kLux, 0.75f * kCeilingLux), Vec2(0, 0.25f * kCeilingLux)})
+    light.push_back({flat_page(Vec3(lux.x)), page_of(32, [&](auto, auto) { return Vec3(lux.y); })});
+  for (std::uint32_t page = 0; page < 2; ++page)
+    pack.page_groups.push_back(groups_of_page(pack.lightmaps[page], page, light));
+  pack.light_groups.resize(2);
+  pack.light_groups[0].name = "window", pack.light_groups[1].name = "lamp";
+  for (LightGroup& group : pack.light_groups) group.probes.assign(pack.light_field.probes.size(), Vec3(0.5f));
+  FrameOptions options = options_of(ShadeWork::kLists);
+  const float all = kLux - lux_at(pack, options, 0, 0);
+  ASSERT_GT(all, 5);
+  options.lights = {Vec3(1), Vec3(0)};
+  EXPECT_NEAR(kLux - lux_at(pack, options, 0, 0), 0.75f * all, 0.02f * all);
+  options.lights = {Vec3(1), Vec3(3)};
+  EXPECT_NEAR(kLux - lux_at(pack, options, 0, 0), 1.5f * all, 0.02f * all);
 }
 
 // A few maps a frame: in the end it is all of them.
