@@ -112,7 +112,7 @@ class ImageSource {
   Result<PreparedImage> make_surround(std::uint32_t index, Parts parts) const;
   Result<RadianceMap> radiance_map(std::uint32_t index) const;
   std::vector<IVec2> map_sizes(const ReflectorElement& element, int coarser) const;
-  Result<LightOfMaps> light_of_maps(PreparedImage& of) const;
+  LightOfMaps light_of_maps(PreparedImage& of) const;
   LightOfMaps make_light_of_maps(const Shining& now, const MapFactors& of_maps) const;
   const Pack* pack_ = nullptr;  // null where images are deferred
   std::shared_ptr<const DeferredImages> deferred_;

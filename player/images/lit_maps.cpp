@@ -61,7 +61,7 @@ constexpr unsigned kThreads = 4;
 }  // namespace
 
 // of: what its lights and geometry is is put there.
-Result<ImageSource::LightOfMaps> ImageSource::light_of_maps(PreparedImage& of) const {
+ImageSource::LightOfMaps ImageSource::light_of_maps(PreparedImage& of) const {
   const std::scoped_lock lock(followed_->mutex);
   Shining now;
   MapFactors of_maps;
@@ -112,7 +112,7 @@ Result<RadianceMap> ImageSource::radiance_map(std::uint32_t index) const {
 
 Result<RadianceMap> ImageSource::lit_map(std::uint32_t index, std::uint64_t& lights) const {
   PreparedImage of;
-  ORIEL_TRY(const LightOfMaps light, light_of_maps(of));
+  const LightOfMaps light = light_of_maps(of);
   lights = of.lights;
   ORIEL_TRY(RadianceMap map, radiance_map(index));
   if (light) map_light_->shine(*light, index, map);
@@ -121,7 +121,7 @@ Result<RadianceMap> ImageSource::lit_map(std::uint32_t index, std::uint64_t& lig
 
 Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarser, Parts parts) const {
   PreparedImage out;
-  ORIEL_TRY(const LightOfMaps light, light_of_maps(out));
+  const LightOfMaps light = light_of_maps(out);
   MeansOfMaps means;
   for (const ReflectorElement& element : elements_[reflector]) {
     std::vector<RadianceMap> maps(element.maps.size());
@@ -160,7 +160,7 @@ Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarse
 
 Result<PreparedImage> ImageSource::make_surround(std::uint32_t index, Parts parts) const {
   PreparedImage out;
-  ORIEL_TRY(const LightOfMaps light, light_of_maps(out));
+  const LightOfMaps light = light_of_maps(out);
   ORIEL_TRY(SurroundMap map,
             deferred_ ? deferred_->surround_map(index) : Result<SurroundMap>(pack_->surround_maps[index]));
   if (light) map_light_->shine(*light, index, map);

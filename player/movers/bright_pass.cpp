@@ -109,9 +109,7 @@ void BrightPass::draw_batches(const FrameContext& context, std::span<const DrawB
     state.cull = cull_of(m);
     gpu::apply(state);
     surface_.set("u_id", m.unlit ? kNothingId : id);
-    surface_.set("u_alpha", m.alpha);
-    surface_.set("u_alpha_cutoff", cutoff_of(m));
-    scene.albedo(m.base_color_texture).bind(kBaseUnit);
+    set_cutout(surface_, scene, m);
     draw_batch(batch, stats);
   }
 }
@@ -125,7 +123,6 @@ void BrightPass::draw_surfaces(const FrameContext& context, std::span<const Draw
   state.depth_test = state.depth_write = true;
   gpu::apply(state);
   surface_.use();
-  surface_.set("u_base_texture", kBaseUnit);
   of_movers_.bind(of_movers_.surfaces_target);
   glClearBufferuiv(GL_COLOR, 0, kNothing);
   glClear(GL_DEPTH_BUFFER_BIT);

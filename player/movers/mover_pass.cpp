@@ -59,7 +59,6 @@ Result<MoverPass> MoverPass::create(gpu::Dialect dialect) {
 void MoverPass::draw_depth(const FrameContext& context, std::span<const PlacedMover> movers) const {
   const auto& [scene, view, options, stats] = context;
   depth_.use();
-  depth_.set("u_base_texture", kBaseUnit);
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
   state.color_write = false;
@@ -71,9 +70,7 @@ void MoverPass::draw_depth(const FrameContext& context, std::span<const PlacedMo
       const Material& m = scene.pack().materials[range.material];
       state.cull = cull_of(m);
       gpu::apply(state);
-      depth_.set("u_alpha", m.alpha);
-      depth_.set("u_alpha_cutoff", cutoff_of(m));
-      scene.albedo(m.base_color_texture).bind(kBaseUnit);
+      set_cutout(depth_, scene, m);
       draw_indices(range.first_index, range.index_count, stats);
     }
   }

@@ -60,12 +60,7 @@ void ShadeMaps::draw_face(const GpuScene& scene, const GpuMover& shape, const Fa
     program.set("u_clip_from_object", face.clip_from_object);
     program.set("u_light_from_object", face.light_from_object);
     program.set("u_signs", face.signs);
-    if (!plain) {
-      program.set("u_base_texture", kBaseUnit);
-      program.set("u_alpha", m.alpha);
-      program.set("u_alpha_cutoff", cutoff_of(m));
-      scene.albedo(m.base_color_texture).bind(kBaseUnit);
-    }
+    if (!plain) set_cutout(program, scene, m);
     draw_batch(batch, stats);
   }
   ++stats.shade.faces;

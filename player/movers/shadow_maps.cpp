@@ -60,12 +60,7 @@ void ShadowMaps::draw_ranges(const GpuScene& scene, const std::vector<DrawRange>
     const Material& m = scene.pack().materials[batch.material];
     const bool plain = cutoff_of(m) < 0;
     (plain ? plain_depth_ : depth_).use();
-    if (!plain) {
-      depth_.set("u_base_texture", kBaseUnit);
-      depth_.set("u_alpha", m.alpha);
-      depth_.set("u_alpha_cutoff", cutoff_of(m));
-      scene.albedo(m.base_color_texture).bind(kBaseUnit);
-    }
+    if (!plain) set_cutout(depth_, scene, m);
     draw_batch(batch, stats);
   }
 }

@@ -125,7 +125,6 @@ void ScenePass::draw_depths(const FrameContext& context, std::span<const DrawBat
   for (const gpu::Program* program : {&plain_depth_, &depth_}) {
     program->use();
     program->set("u_clip_from_pack", view.clip_from_pack);
-    program->set("u_base_texture", kBaseUnit);
   }
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
@@ -137,9 +136,7 @@ void ScenePass::draw_depths(const FrameContext& context, std::span<const DrawBat
     gpu::apply(state);
     const gpu::Program& program = cutoff_of(m) < 0 ? plain_depth_ : depth_;
     program.use();
-    program.set("u_alpha", m.alpha);
-    program.set("u_alpha_cutoff", cutoff_of(m));
-    scene.albedo(m.base_color_texture).bind(kBaseUnit);
+    set_cutout(program, scene, m);
     draw_batch(batch, stats);
   }
 }

@@ -70,7 +70,6 @@ Status SurveyPass::draw(const FrameContext& context, std::span<const DrawBatch> 
   ORIEL_TRY_VOID(prepare(scene, show));
   program_.use();
   program_.set("u_clip_from_pack", view.clip_from_pack);
-  program_.set("u_base_texture", kBaseUnit);
   program_.set("u_survey", kLightmapUnit);
   program_.set("u_mode", show == Show::kOverdraw ? 1 : show == Show::kZones ? 2 : 0);
   program_.set("u_added", kOverdrawStep);
@@ -87,9 +86,7 @@ Status SurveyPass::draw(const FrameContext& context, std::span<const DrawBatch> 
     const Material& m = scene.pack().materials[batch.material];
     state.cull = cull_of(m);
     gpu::apply(state);
-    program_.set("u_alpha", m.alpha);
-    program_.set("u_alpha_cutoff", cutoff_of(m));
-    scene.albedo(m.base_color_texture).bind(kBaseUnit);
+    set_cutout(program_, scene, m);
     const bool surveyed =
         batch.lightmap_page >= 0 && !pages_.empty() && pages_[static_cast<std::size_t>(batch.lightmap_page)];
     program_.set("u_surveyed", surveyed ? 1 : 0);

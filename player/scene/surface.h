@@ -70,6 +70,14 @@ inline void set_distance_alpha(const gpu::Program& program, const View& view) {
   program.set("u_closest", kClosest);
 }
 
+// What is cut out of a material's surfaces.
+inline void set_cutout(const gpu::Program& program, const GpuScene& scene, const Material& m) {
+  program.set("u_base_texture", kBaseUnit);
+  program.set("u_alpha", m.alpha);
+  program.set("u_alpha_cutoff", cutoff_of(m));
+  scene.albedo(m.base_color_texture).bind(kBaseUnit);
+}
+
 // Albedo, reflectance, emission and its picture, and normal map. normal_mapped: the mesh has coordinates for normal
 // maps.
 inline void set_surface(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
