@@ -31,6 +31,10 @@ constexpr float kMirroring = 0.5f;
 // silver (0.9 each) end at six.
 constexpr int kOrders = 2, kMostOrders = 16;
 
+// Images of mirrored geometry in a frame after which mirrors in them show none: mirrors that overlap on the screen are
+// more in each image than its pixels tell.
+constexpr int kMostImages = 1024;
+
 int most_orders(const FrameOptions& options) {
   return options.coarse ? 1 : options.orders.value_or(kMostOrders);
 }
@@ -104,6 +108,7 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
   std::vector<MarkedReflector> out;
   const auto& [scene, view, options, stats] = context;
   if (!shows_reflectors(options)) return out;
+  if (target.frame != nullptr) image_count_ = 0;
   for (const GpuReflector& reflector : scene.reflectors()) {
     const bool maps = shows_maps(reflector, options);
     if (reflector.index_count == 0 || (maps && options.maps_per_element <= 0)) continue;
@@ -260,7 +265,7 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
                                          sets_hold(work.context, target) ? reflector.seen : std::nullopt),
                          pack.reflectors[reflector.index].emitters,
                          {}};
-  if (inside.mirrors < most_orders(options)) {
+  if (inside.mirrors < most_orders(options) && ++image_count_ <= kMostImages) {
     ORIEL_TRY_VOID(draw_mirrors_in(within, inside, mirrored));
   } else {
     work.scene_pass.draw_reflected(within.context, mirrored);

@@ -91,6 +91,7 @@ class ReflectionRenderer {
 
   gpu::Device device_;
   bool halves_ = false;
+  int image_count_ = 0;        // of mirrored geometry in this frame, so far
   std::uint64_t zone_of_ = 0;  // GpuScene::serial()
   Zone zone_;
   ReflectorPass reflector_pass_;

@@ -195,5 +195,21 @@ TEST_F(Mirrors, DrawWhatTheirSetsHold) {
       << "of another pack";
 }
 
+// Slanted strips on two facing walls: the box around each on the screen is most of the picture, so that what an image
+// of it is worth never falls. Their images would be a power of sixteen.
+TEST_F(Mirrors, ThatOverlapOnTheScreenEndInTime) {
+  Pack pack = empty_pack();
+  pack.fresnel_maps[0] = flat_reflectance(Vec3(0.99f));
+  for (int i = 0; i < 8; ++i) {
+    const float x = -1 + 0.15f * static_cast<float>(i);
+    add_bare_mirror(pack, {x, -1, -1}, {0.06f, -0.06f, 0}, {1.4f, 1.4f, 0});
+    add_bare_mirror(pack, {x, -1, 1}, {1.4f, 1.4f, 0}, {0.06f, -0.06f, 0});
+  }
+  const Picture picture = draw(pack, look_at({0, 0, 0.5f}, {0, 0, -1}, 1.2f), 48, 48);
+  EXPECT_TRUE(picture.finite());
+  EXPECT_GT(picture.stats.reflectors, 100u) << "the scene has many images";
+  EXPECT_LE(picture.stats.reflectors, 16u * 1100);
+}
+
 }  // namespace
 }  // namespace oriel
