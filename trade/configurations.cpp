@@ -12,7 +12,8 @@ using Texts = std::vector<std::string>;
 
 class Planner {
  public:
-  Planner(const SceneFacts& facts, double texel_m, bool quick) : facts_(facts), texel_m_(texel_m), quick_(quick) {
+  Planner(const SceneFacts& facts, double texel_m, bool quick, std::string move)
+      : facts_(facts), texel_m_(texel_m), quick_(quick), move_(std::move(move)) {
     default_.knob = "default";
     default_.bake = {{"--error", "2%"}, {"--texel", length_text(texel_m)}};
   }
@@ -29,6 +30,7 @@ class Planner {
     light();
     reflections();
     movers();
+    moved_lamp();
     no_bake();
     paths();
     out.configurations = std::move(configurations_);
@@ -129,6 +131,29 @@ class Planner {
         "many lights (Barczak 2006)");
   }
 
+  // Ways to show a lamp elsewhere.
+  void moved_lamp() {
+    if (move_.empty()) {
+      skip("moved lamp", "--moved-lamp LAMP=x,y,z says which and where to");
+      return;
+    }
+    const std::size_t first = configurations_.size();
+    const Settings grouped{{"--light-groups", "each"}}, there{{"--move", move_}};
+    const auto live = [&](Settings more) {
+      more["--move"] = move_;
+      return more;
+    };
+    add("moved lamp", "baked anew", there, {});
+    add("moved lamp", "live, fitted", grouped, live({{"--live", "fitted"}}));
+    add("moved lamp", "live, differential", grouped, live({{"--live", "differential"}}));
+    add("moved lamp", "live alone", grouped, live({{"--live", "only"}}));
+    add("moved lamp", "live alone, by lights", grouped, live({{"--live", "only"}, {"--live-indirect", "lights"}}),
+        "instant radiosity (Keller 1997)");
+    add("moved lamp", "switched off", grouped, {{"--light", move_.substr(0, move_.find('=')) + "=off"}});
+    add("moved lamp", "not followed", {}, {});
+    for (std::size_t i = first; i < configurations_.size(); ++i) configurations_[i].moved = true;
+  }
+
   void no_bake() {
     for (const std::string& shadows : either({"rays"}, {"rays", "volumes"}))
       for (const unsigned passes : {1u, 16u}) {
@@ -154,6 +179,7 @@ class Planner {
   const SceneFacts& facts_;
   const double texel_m_;
   const bool quick_;
+  const std::string move_;
   Configuration default_;
   std::vector<Configuration> configurations_;
   std::vector<std::string> skipped_;
@@ -161,8 +187,8 @@ class Planner {
 
 }  // namespace
 
-TradePlan plan_trade(const SceneFacts& facts, double texel_m, bool quick) {
-  return Planner(facts, quick ? 2 * texel_m : texel_m, quick).plan();
+TradePlan plan_trade(const SceneFacts& facts, double texel_m, bool quick, const std::string& move) {
+  return Planner(facts, quick ? 2 * texel_m : texel_m, quick, move).plan();
 }
 
 std::string length_text(double metres) {

@@ -1,5 +1,4 @@
 #include "bake/cli/commands.h"
-#include "bake/import/movers.h"
 #include "bake/jobs/parallel.h"
 #include "bake/reference/reference.h"
 #include "bake/run/option_table.h"
@@ -9,7 +8,6 @@
 #include "bake/run/view_options.h"
 #include "formats/image/exr.h"
 #include "formats/query/camera_notes.h"
-#include "formats/query/mover_pose.h"
 
 namespace oriel {
 namespace {
@@ -28,25 +26,11 @@ constexpr const char* kFrame = kFrameGroup;
 struct RenderArguments {
   std::filesystem::path scene, output;
   std::string camera;  // as written; empty: the scene's first
-  std::vector<MoverMove> moves;
   ImportOptions import;
   bool guess_unit = true;  // as a bake does: eyes are in the pack's metres
   ReferenceOptions frame{.width = 1280, .height = 720, .samples = 256};
   bool reproducible = false;  // the same pixels on every CPU type
 };
-
-Status move_movers(std::span<const MoverMove> moves, Scene& scene) {
-  if (moves.empty()) return {};
-  std::vector<std::string> names;
-  std::vector<MoverPose> poses;
-  for (const SceneMover& mover : scene.movers) {
-    names.push_back(mover.name);
-    poses.push_back(mover.rest);
-  }
-  ORIEL_TRY_VOID(apply_moves(moves, names, scene.origin, poses));
-  for (std::size_t i = 0; i < poses.size(); ++i) move_mover(scene, i, poses[i]);
-  return {};
-}
 
 Result<ImportedScene> import_in_metres(const RenderArguments& args, Context& context) {
   ORIEL_TRY(ImportedScene imported, import_gltf(args.scene, args.import, context));
@@ -67,8 +51,7 @@ Status run_render(const RenderArguments& args, BakeSession& session) {
   stop_on_signals(context, args.output, OnStop::kStop);
   session.less_memory = "a smaller --size";
   ORIEL_TRY_VOID(check_output(args.output, inputs_of(args.scene, args.import)));
-  ORIEL_TRY(ImportedScene imported, import_in_metres(args, context));
-  ORIEL_TRY_VOID(move_movers(args.moves, imported.scene));
+  ORIEL_TRY(const ImportedScene imported, import_in_metres(args, context));
   const Scene& scene = imported.scene;
   ORIEL_TRY(const Camera camera, choose_camera(scene, args.camera));
   ORIEL_TRY(const Accel accel, Accel::build(scene, {args.reproducible, thread_count(context)}));
@@ -113,8 +96,6 @@ std::vector<Option> frame_options(RenderArguments& args) {
       {"--no-antialias", kFrame,
        "Every ray through its pixel's centre, as a rasteriser without supersampling sees the scene",
        flag(args.frame.antialias, false)},
-      {"--move", kFrame, "Puts a mover there, world metres, and turns it about up by degrees from its rest; repeatable",
-       each(args.moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); })},
   };
 }
 
@@ -127,7 +108,7 @@ ToolCommand render_command(BakeSession& session) {
       .help = "Path-traces one frame by component, with its noise: the reference that frames are compared with",
       .footer = kFooter,
       .options = frame_options(*args)};
-  out.options.push_back(mover_option(args->import));
+  append(out.options, mover_options(args->import));
   append(out.options, light_options(args->import));
   out.options.push_back(unit_option(args->import, args->guess_unit));
   append(out.options, scene_options(args->import, args->reproducible));

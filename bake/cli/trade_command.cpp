@@ -61,6 +61,9 @@ std::vector<Option> sweep_options(trade::TradeOptions& o) {
        "Whose frames are judged, as oriel-play takes it; repeatable. Default: those of the scene that see most of its "
        "reflectors (2 with --quick, else 4), or eyes on its floors",
        texts(o.cameras, "CAMERA"), Use::kEveryday},
+      {"--moved-lamp", kSweep,
+       "Measures too how well and how fast a lamp is shown there, world metres, that was baked where the file has it",
+       text(o.move, "LAMP=x,y,z[,yaw]"), Use::kEveryday},
   };
 }
 
@@ -74,7 +77,7 @@ ToolCommand trade_command(BakeSession& session) {
       .footer = kFooter,
       .options = sweep_options(args->options)};
   std::vector<Option> forwarded = light_options(args->import);
-  forwarded.push_back(mover_option(args->import));
+  append(forwarded, mover_options(args->import));
   append(forwarded, scene_options(args->import, args->reproducible));
   append(out.options, forwarded);
   append(out.options, run_options(session));

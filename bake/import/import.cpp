@@ -258,6 +258,7 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY(const std::vector<Animation> animations, load_animations(document, moving, accessors, context));
   ORIEL_TRY_VOID(place_viewpoints(nodes, animations, out.scene, context));
   ORIEL_TRY_VOID(place_movers(nodes, animations, out.scene, context));
+  ORIEL_TRY_VOID(move_nodes(options.moves, out.scene));
   ORIEL_TRY_VOID(apply_lighting(options, budget, out, context));
   ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(last, context));
   warn_of_topology(out.scene, last != nullptr ? &last->scene : nullptr, context);

@@ -7,6 +7,7 @@
 #include "bake/jobs/context.h"
 #include "bake/scene/daylight.h"
 #include "formats/core/hash.h"
+#include "formats/query/mover_pose.h"
 
 namespace oriel {
 
@@ -20,6 +21,7 @@ struct ImportOptions {
   DayOptions day;                      // instead of a sky
   int light_mirrors = 8;               // Scene::light_mirrors, 0 to 8
   std::vector<std::string> movers;     // names of nodes that move, beside those that the file marks or animates
+  std::vector<MoverMove> moves;        // where movers and lamps are instead (move_nodes)
   double unit_m = 1;                   // metres that one unit of the file is. Light stays what it is on surfaces:
                                        // point and spot lights shine with the square of it
   bool double_sided = false;           // every material reflects and emits on both sides, whatever the file says

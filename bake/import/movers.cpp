@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <map>
 
+#include "bake/import/node_names.h"
 #include "formats/core/text.h"
 #include "formats/query/mover_pose.h"
 
@@ -68,29 +70,54 @@ Result<std::vector<MoverKey>> mover_keys(const Document& document, std::uint32_t
   return keys;
 }
 
-// Movers that shine become part of the scene that stands still.
-void keep_emitters(Scene& scene, Context& context) {
-  std::vector<char> shines(scene.movers.size());
-  for (const Surface& surface : scene.surfaces) {
-    const SceneMaterial& material = scene.materials[surface.material];
-    if (surface.mover >= 0 && !material.unlit && max_component(material.emission) > 0)
-      shines[static_cast<std::size_t>(surface.mover)] = 1;
-  }
-  std::vector<std::int32_t> renamed(scene.movers.size(), -1);
+bool shines(const Scene& scene, const Surface& surface) {
+  const SceneMaterial& material = scene.materials[surface.material];
+  return !material.unlit && max_component(material.emission) > 0;
+}
+
+// What shines of movers becomes part of the scene that stands still: a lamp, which has the mover's motion if the file
+// animates it. What else the mover has goes on as one then; without an animation it stands still with its lamp.
+void part_lamps(Scene& scene, std::vector<char> has_lamp, Context& context) {
+  std::vector<char> has_body(scene.movers.size());
+  for (const Surface& surface : scene.surfaces)
+    if (surface.mover >= 0) (shines(scene, surface) ? has_lamp : has_body)[static_cast<std::size_t>(surface.mover)] = 1;
+  std::vector<std::int32_t> renamed(scene.movers.size(), -1), motions(renamed);
   std::vector<SceneMover> kept;
   for (std::size_t i = 0; i < scene.movers.size(); ++i) {
-    if (shines[i]) {
-      context.warning(
-          fmt::format("mover \"{}\" has an emissive material: its light is baked where it is, so it stands still",
-                      scene.movers[i].name));
+    SceneMover& mover = scene.movers[i];
+    if (has_lamp[i] && mover.keys.empty()) {
+      context.warning(fmt::format(
+          "mover \"{}\" has an emissive material: its light is baked where it is, so it stands still", mover.name));
       continue;
     }
+    if (has_lamp[i]) {
+      motions[i] = static_cast<std::int32_t>(scene.lamp_motions.size());
+      scene.lamp_motions.push_back(mover);
+      if (has_body[i]) scene.lamp_motions.back().name += " light";  // the body has the node's
+    }
+    if (!has_body[i]) continue;
     renamed[i] = static_cast<std::int32_t>(kept.size());
-    kept.push_back(std::move(scene.movers[i]));
+    kept.push_back(std::move(mover));
   }
   scene.movers = std::move(kept);
-  for (Surface& surface : scene.surfaces)
-    if (surface.mover >= 0) surface.mover = renamed[static_cast<std::size_t>(surface.mover)];
+  for (Surface& surface : scene.surfaces) {
+    if (surface.mover < 0) continue;
+    const auto mover = static_cast<std::size_t>(surface.mover);
+    if (shines(scene, surface)) surface.motion = motions[mover];
+    surface.mover = surface.motion >= 0 ? -1 : renamed[mover];
+  }
+  for (Light& light : scene.lights)
+    if (light.motion >= 0) light.motion = motions[static_cast<std::size_t>(light.motion)];
+}
+
+// Whether the light goes along: the sun of a turning node is no lamp that the player could move.
+bool carry_light(const std::string& path, std::int32_t mover, Scene& scene) {
+  for (Light& light : scene.lights) {
+    if (light.node_path != path || light.type == LightType::kDirectional) continue;
+    light.motion = mover;  // for now; part_lamps() makes it a lamp's
+    return true;
+  }
+  return false;
 }
 
 template <class T>
@@ -166,6 +193,73 @@ Scene object_scene(const Scene& scene, std::size_t mover) {
   return object;
 }
 
+// Moves vertices of a surface as a rigid object.
+void change_surface(Scene& scene, const Surface& surface, const DMat4& change) {
+  const DMat3 turn(change);
+  const auto turned = [&](const Vec3& v) { return normalize_or(Vec3(turn * DVec3(v)), Vec3(0, 0, 1)); };
+  for (std::uint32_t v = surface.first_vertex; v < surface.first_vertex + surface.vertex_count; ++v) {
+    scene.positions[v] = Vec3(change * DVec4(DVec3(scene.positions[v]), 1));
+    scene.normals[v] = turned(scene.normals[v]);
+    if (!scene.tangents.empty()) scene.tangents[v] = Vec4(turned(Vec3(scene.tangents[v])), scene.tangents[v].w);
+  }
+  scene.face_normals.clear();
+}
+
+void move_mover(Scene& scene, std::size_t mover, const MoverPose& pose) {
+  const DMat4 change = pack_from_object(pose) * glm::inverse(pack_from_object(scene.movers[mover].rest));
+  for (const Surface& surface : scene.surfaces)
+    if (surface.mover == static_cast<std::int32_t>(mover)) change_surface(scene, surface, change);
+  scene.movers[mover].rest = pose;
+}
+
+// What shines of the nodes of that name.
+struct ShiningNodes {
+  std::vector<const Surface*> surfaces;
+  std::vector<Light*> lights;
+  Vec3 lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
+  bool animated = false;
+};
+
+ShiningNodes shining_nodes(Scene& scene, const std::string& name) {
+  ShiningNodes lamp;
+  const auto extend = [&](const Vec3& p) {
+    lamp.lower = glm::min(lamp.lower, p), lamp.upper = glm::max(lamp.upper, p);
+  };
+  for (const Surface& surface : scene.surfaces) {
+    if (surface.name != name || surface.mover >= 0 || !shines(scene, surface)) continue;
+    lamp.surfaces.push_back(&surface), lamp.animated |= surface.motion >= 0;
+    for (std::uint32_t v = 0; v < surface.vertex_count; ++v) extend(scene.positions[surface.first_vertex + v]);
+  }
+  for (Light& light : scene.lights) {
+    if (light.name != name || light.type == LightType::kDirectional) continue;
+    lamp.lights.push_back(&light), lamp.animated |= light.motion >= 0;
+    extend(light.position);
+  }
+  return lamp;
+}
+
+void move_lamp(Scene& scene, const ShiningNodes& lamp, const MoverMove& move) {
+  MoverPose pose = moved({}, move, scene.origin);
+  const DMat3 turn(pack_from_object(pose));
+  pose.position -= Vec3(turn * DVec3(0.5f * (lamp.lower + lamp.upper)));
+  const DMat4 change = pack_from_object(pose);
+  for (const Surface* surface : lamp.surfaces) change_surface(scene, *surface, change);
+  for (Light* light : lamp.lights) {
+    light->position = Vec3(change * DVec4(DVec3(light->position), 1));
+    light->direction = Vec3(turn * DVec3(light->direction)), light->right = Vec3(turn * DVec3(light->right));
+  }
+}
+
+std::vector<std::string> movable_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const SceneMover& mover : scene.movers) names.push_back(mover.name);
+  for (const Surface& surface : scene.surfaces)
+    if (surface.mover < 0 && shines(scene, surface)) names.push_back(surface.name);
+  for (const Light& light : scene.lights)
+    if (light.type != LightType::kDirectional) names.push_back(light.name);
+  return names;
+}
+
 }  // namespace
 
 Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::string> names, Context& context) {
@@ -180,7 +274,9 @@ Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::str
     nearest[pose.node] = marks[pose.node] != 0 ? static_cast<std::int32_t>(pose.node)
                          : node.parent >= 0    ? nearest[static_cast<std::size_t>(node.parent)]
                                                : -1;
-    if (nearest[pose.node] >= 0 && node.mesh >= 0) shown[static_cast<std::size_t>(nearest[pose.node])] = 1;
+    const std::int32_t top = nearest[pose.node];
+    if (top >= 0 && (node.mesh >= 0 || (node.light >= 0 && marks[static_cast<std::size_t>(top)] == 1)))
+      shown[static_cast<std::size_t>(top)] = 1;
   }
   for (const NodePose& pose : poses) {
     if (shown[pose.node]) {
@@ -198,7 +294,9 @@ Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::str
 
 Status place_movers(const PosedNodes& nodes, std::span<const Animation> animations, Scene& scene, Context& context) {
   const auto& [document, poses, movers, numbers] = nodes;
+  const gltf::NodeNames names(document);
   scene.movers.resize(movers.nodes.size());
+  std::vector<char> has_lamp(movers.nodes.size());
   for (const NodePose& pose : poses) {
     const std::int32_t mover = movers.of_node[pose.node];
     if (mover < 0) continue;
@@ -208,30 +306,35 @@ Status place_movers(const PosedNodes& nodes, std::span<const Animation> animatio
       out.rest = pose_of(pose.world_from_node, scene.origin);
       ORIEL_TRY(out.keys, mover_keys(document, pose.node, animations, scene.origin, context));
     }
-    if (document.nodes[pose.node].light >= 0)
+    if (document.nodes[pose.node].light < 0) continue;
+    if (!out.keys.empty() && carry_light(names.path(pose.node), mover, scene))
+      has_lamp[static_cast<std::size_t>(mover)] = 1;
+    else
       context.warning(fmt::format("mover \"{}\" carries the light \"{}\": that stays where it is", out.name,
                                   mover_name(document, pose.node)));
   }
-  keep_emitters(scene, context);
+  part_lamps(scene, std::move(has_lamp), context);
   return {};
 }
 
-void move_mover(Scene& scene, std::size_t mover, const MoverPose& pose) {
-  SceneMover& moving = scene.movers[mover];
-  const DMat4 change = pack_from_object(pose) * glm::inverse(pack_from_object(moving.rest));
-  const DMat3 turn(change);
-  const auto turned = [&](const Vec3& v) { return normalize_or(Vec3(turn * DVec3(v)), Vec3(0, 0, 1)); };
-  for (const Surface& surface : scene.surfaces) {
-    if (surface.mover != static_cast<std::int32_t>(mover)) continue;
-    for (std::uint32_t v = surface.first_vertex; v < surface.first_vertex + surface.vertex_count; ++v) {
-      scene.positions[v] = Vec3(change * DVec4(DVec3(scene.positions[v]), 1));
-      scene.normals[v] = turned(scene.normals[v]);
-      if (!scene.tangents.empty()) scene.tangents[v] = Vec4(turned(Vec3(scene.tangents[v])), scene.tangents[v].w);
+Status move_nodes(std::span<const MoverMove> moves, Scene& scene) {
+  for (const MoverMove& move : moves) {
+    const auto mover = std::ranges::find(scene.movers, move.node, &SceneMover::name);
+    if (mover != scene.movers.end()) {
+      move_mover(scene, static_cast<std::size_t>(mover - scene.movers.begin()), moved(mover->rest, move, scene.origin));
+      continue;
     }
+    const ShiningNodes lamp = shining_nodes(scene, move.node);
+    if (lamp.surfaces.empty() && lamp.lights.empty())
+      return fail(ErrorCode::kUsage, "--move", "found \"{}\", expected a mover or a lamp of the scene: {}", move.node,
+                  names_like(move.node, movable_names(scene)));
+    if (lamp.animated)
+      return fail(ErrorCode::kUsage, "--move", "found the lamp \"{}\", expected one that the file does not animate",
+                  move.node);
+    move_lamp(scene, lamp, move);
   }
-  moving.rest = pose;
-  scene.face_normals.clear();
-  find_bounds(scene);
+  if (!moves.empty()) find_bounds(scene);
+  return {};
 }
 
 Result<std::vector<TakenMover>> take_movers(Scene& scene) {

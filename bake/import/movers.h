@@ -3,16 +3,19 @@
 
 #include "bake/import/place.h"
 #include "bake/import/tracks.h"
+#include "formats/query/mover_pose.h"
 
 namespace oriel {
 
 // A mover is a node with extras oriel.mover true, one named in `names`, or one that an animation translates or turns
-// and that is no camera's. It takes what is below it along, except other movers. Nodes that show no mesh are none, with
-// a warning where they were asked for. Error kUsage for a name that no node has; it lists those most alike.
+// and that is no camera's. It takes what is below it along, except other movers. Nodes that show no mesh are none (but
+// animated ones that carry a light), with a warning where they were asked for. Error kUsage for a name that no node
+// has; it lists those most alike.
 Result<MoverNodes> find_movers(const PosedNodes& nodes, std::span<const std::string> names, Context& context);
 
-// Fills scene.movers out of place_meshes' surfaces, with the first animation that moves each. A mover that shines
-// stands still, and so do lights below a mover; both with a warning.
+// Fills scene.movers out of place_meshes' surfaces, with the first animation that moves each. What shines of an
+// animated one, and its point and spot lights, are lamps with a motion (Scene::lamp_motions). Without an animation a
+// mover that shines stands still, and so do lights below a mover; both with a warning.
 Status place_movers(const PosedNodes& nodes, std::span<const Animation> animations, Scene& scene, Context& context);
 
 // A mover apart from the scene: its surfaces in object space. Materials and images have the scene's indices, which gets
@@ -26,7 +29,9 @@ struct TakenMover {
 // be left.
 Result<std::vector<TakenMover>> take_movers(Scene& scene);
 
-// Puts the mover elsewhere, its surfaces in the scene included; its new pose is its rest. The bounds grow as needed.
-void move_mover(Scene& scene, std::size_t mover, const MoverPose& pose);
+// Puts movers, with their nodes' origins, and lamps, with the middle of what shines of a node, elsewhere: that is their
+// rest then. The bounds grow as needed. Error kUsage for a name that no mover and no lamp has, and for a lamp that the
+// file animates.
+Status move_nodes(std::span<const MoverMove> moves, Scene& scene);
 
 }  // namespace oriel

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 
 #include "bake/jobs/parallel.h"
 #include "bake/radiance/punctual_emitter.h"
@@ -12,16 +11,15 @@
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
+#include "formats/query/emitter_views.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::size_t kMostTriangles = 16;      // of a lamp: finer ones leave no room for others
-constexpr double kStraight = 1e-4;              // sine of the angle at a corner that is none
-constexpr double kLeastShare = 1e-4;            // of a reflector's light from lamps: less is not worth an emitter
-constexpr double kMostParted = 0.25;            // see LightOnReflector, of its worth
-constexpr double kMostPartedOfGeometry = 0.02;  // an image as fine as the screen shows what is hidden
-constexpr float kInwards = 0.02f;  // by which border nodes move in, in cells: off the walls around a reflector
+constexpr std::size_t kMostTriangles = 16;  // of a lamp: finer ones leave no room for others
+constexpr double kStraight = 1e-4;          // sine of the angle at a corner that is none
+constexpr double kLeastShare = 1e-4;        // of a reflector's light from lamps: less is not worth an emitter
+constexpr std::uint32_t kFirstSamples = 8;  // of a sun, a point or a spot, which nodes hardly see in part
 
 // The corners of a light's outline, counter-clockwise from its front; empty unless it is one closed loop.
 std::vector<Vec3> outline(const PolygonLight& light) {
@@ -62,35 +60,21 @@ std::vector<Emitter> polygons_of(const PolygonLight& light) {
   return out;
 }
 
-// The grid of nodes over a reflector's bounds, on its plane.
 struct Nodes {
-  std::uint32_t x = 2, y = 2;
-  std::vector<Vec3> points;   // scene space, just over the plane
+  ReflectorNodes grid;
   std::vector<bool> covered;  // by the reflector
 };
 
 Nodes lay_out(const Accel& accel, const FoundReflector& found, float node_m, std::uint32_t max_nodes) {
   const Reflector& r = found.reflector;
   const Vec2 size = r.upper - r.lower;
-  Nodes nodes;
-  const auto count = [&](float side) {
-    const float cells = std::ceil(side / node_m);
-    return 1 + static_cast<std::uint32_t>(std::clamp(cells, 1.0f, static_cast<float>(max_nodes - 1)));
-  };
-  nodes.x = count(size.x);
-  nodes.y = count(size.y);
+  Nodes nodes{lay_out_nodes(r, nodes_along(size.x, node_m, max_nodes), nodes_along(size.y, node_m, max_nodes)), {}};
   const Vec3 normal(r.pack_from_reflector[2]);
-  const float lift =
-      r.flatness_m + 1e-5f * (glm::length(size) + max_component(glm::abs(Vec3(r.pack_from_reflector[3]))));
-  const Vec2 last(nodes.x - 1, nodes.y - 1);
-  for (std::uint32_t j = 0; j < nodes.y; ++j)
-    for (std::uint32_t i = 0; i < nodes.x; ++i) {
-      const Vec2 at = glm::clamp(Vec2(i, j), Vec2(kInwards), last - kInwards) / last;
-      nodes.points.push_back(pack_from_reflector(r, Vec3(r.lower + at * size, 0)) + lift * normal);
-      const Hit below = accel.intersect({nodes.points.back(), -normal, 4 * lift});
-      nodes.covered.push_back(below &&
-                              std::binary_search(found.triangles.begin(), found.triangles.end(), below.triangle));
-    }
+  for (const Vec3& point : nodes.grid.points) {
+    const Hit below = accel.intersect({point, -normal, 4 * nodes.grid.lift_m});
+    nodes.covered.push_back(below &&
+                            std::binary_search(found.triangles.begin(), found.triangles.end(), below.triangle));
+  }
   return nodes;
 }
 
@@ -122,8 +106,9 @@ class VisibilityBaker {
   VisibilityBaker(const Accel& accel, const EmitterOptions& options, std::uint64_t seed)
       : accel_(accel), options_(options), seed_(seed) {}
 
-  // Share of the polygon's points over the plane that a point of the plane sees.
-  float share(const Emitter& polygon, const Vec3& node, const Vec3& normal, std::uint64_t stream) const {
+  // Share of the polygon's points over the plane that a point of the plane sees; `few` of them where they agree.
+  float share(const Emitter& polygon, std::uint32_t few, const Vec3& node, const Vec3& normal,
+              std::uint64_t stream) const {
     const Vec3 front = glm::cross(polygon.corners[1] - polygon.corners[0], polygon.corners[2] - polygon.corners[0]);
     if (!polygon.two_sided && glm::dot(node - polygon.corners[0], front) <= 0) return 0;
     double seen = 0;
@@ -135,6 +120,7 @@ class VisibilityBaker {
       if (!(glm::dot(way, normal) > 0)) continue;
       ++over;
       seen += luminance(glm::min(accel_.transmittance({node, way / distance, distance * (1 - 1e-4f)}), Vec3(1)));
+      if (over == few && (seen == 0 || seen == over)) break;
     }
     return over > 0 ? static_cast<float>(seen / over) : 0;
   }
@@ -143,34 +129,31 @@ class VisibilityBaker {
   std::vector<float> shares(const LightOnReflector& on, std::size_t polygon, const Nodes& nodes,
                             const Vec3& normal) const {
     std::vector<float> shares;
-    std::uint64_t stream = (on.light * kMaxReflectorEmitters + polygon) * nodes.points.size();
-    for (const Vec3& node : nodes.points) {
-      shares.push_back(share(on.polygons[polygon], node, normal, stream++));
+    const std::uint32_t few = on.lamp.triangles.empty() ? kFirstSamples : options_.samples;
+    std::uint64_t stream = (on.light * kMaxReflectorEmitters + polygon) * nodes.grid.points.size();
+    for (const Vec3& node : nodes.grid.points) {
+      shares.push_back(share(on.polygons[polygon], few, node, normal, stream++));
       if (on.punctual) shares.back() *= fade_of_square(accel_.scene(), *on.punctual, on.lamp, node);
     }
     return shares;
   }
 
-  // lobe_width: α of the reflector's lobe.
+  // lobe_width: α of the reflector's lobe; 0: a mirror, which shows of a lamp what each point sees.
   void weigh(const Nodes& nodes, const Vec3& normal, double lobe_width, LightOnReflector& on) const {
     const PolygonLight& light = on.lamp;
-    std::vector<double> mean(nodes.points.size(), 0.0);
+    std::vector<double> mean(nodes.grid.points.size(), 0.0);
     for (std::size_t p = 0; p < on.polygons.size(); ++p) {
       const std::vector<float> seen = shares(on, p, nodes, normal);
       for (std::size_t i = 0; i < seen.size(); ++i) mean[i] += seen[i] / static_cast<double>(on.polygons.size());
     }
-    // Of the mirror direction at normal incidence: one over the lobe's density there, D / 4 = 1 / (4 π α²).
-    const double lobe = 4 * std::numbers::pi * lobe_width * lobe_width;
-    for (std::size_t i = 0; i < nodes.points.size(); ++i) {
+    for (std::size_t i = 0; i < nodes.grid.points.size(); ++i) {
       if (!nodes.covered[i]) continue;
-      const Vec3& node = nodes.points[i];
+      const Vec3& node = nodes.grid.points[i];
       const double light_here = luminance(light.radiance) * polygon_irradiance(light, {node, normal, normal});
       on.worth += mean[i] * light_here;
       const Vec3 towards = glm::normalize(light.center - node);
       const double lamp = polygon_irradiance(light, {node, towards, towards});
-      // A lobe that the lamp fills sees all or nothing of it: with the share m as its mean that is 2 m (1 - m) off on
-      // average. A lobe that holds the lamp averages over it as the share does.
-      if (lamp > 0) on.parted += 2 * mean[i] * (1 - mean[i]) * light_here * lamp / (lamp + lobe);
+      if (lobe_width > 0) on.parted += parted(mean[i], lamp, lobe_width) * light_here;
     }
   }
 
@@ -179,28 +162,6 @@ class VisibilityBaker {
   const EmitterOptions& options_;
   std::uint64_t seed_;
 };
-
-// Nodes that the reflector does not cover take the mean of their neighbours that have a value, ring by ring: what lies
-// there may be the inside of a wall.
-void fill_uncovered(const Nodes& nodes, std::vector<float>& shares) {
-  std::vector<bool> known = nodes.covered;
-  if (std::find(known.begin(), known.end(), true) == known.end()) return;
-  while (std::find(known.begin(), known.end(), false) != known.end()) {
-    const std::vector<bool> before = known;
-    for (std::uint32_t j = 0; j < nodes.y; ++j)
-      for (std::uint32_t i = 0; i < nodes.x; ++i) {
-        const std::size_t at = std::size_t{j} * nodes.x + i;
-        if (before[at]) continue;
-        float sum = 0, count = 0;
-        for (std::uint32_t y = j > 0 ? j - 1 : 0; y <= std::min(j + 1, nodes.y - 1); ++y)
-          for (std::uint32_t x = i > 0 ? i - 1 : 0; x <= std::min(i + 1, nodes.x - 1); ++x)
-            if (before[std::size_t{y} * nodes.x + x]) sum += shares[std::size_t{y} * nodes.x + x], count += 1;
-        if (count == 0) continue;
-        shares[at] = sum / count;
-        known[at] = true;
-      }
-  }
-}
 
 // Lamps that stay in a reflector's maps, by what keeps them there.
 struct LeftIn {
@@ -241,7 +202,7 @@ class EmitterChooser {
                                                   LeftIn& left_in) const {
     const Nodes nodes = lay_out(accel_, found, options_.choice_node_m, options_.max_choice_nodes);
     const Vec3 normal(found.reflector.pack_from_reflector[2]);
-    std::vector<LightOnReflector> out = lamps_before({normal, nodes.points}, left_in);
+    std::vector<LightOnReflector> out = lamps_before({normal, nodes.grid.points}, lobe_width > 0, left_in);
     std::ranges::stable_sort(out, std::greater(), &LightOnReflector::worth);
     left_in.too_faint = out.size() - std::min<std::size_t>(out.size(), options_.max_lights);
     out.resize(out.size() - left_in.too_faint);
@@ -263,18 +224,19 @@ class EmitterChooser {
     std::vector<std::vector<float>> seen(polygons.size());
     ORIEL_TRY_VOID(parallel_for(context_, "", polygons.size(), [&](std::size_t p) {
       seen[p] = baker_.shares(*polygons[p].first, polygons[p].second, nodes, Vec3(r.pack_from_reflector[2]));
-      fill_uncovered(nodes, seen[p]);
+      fill_uncovered(nodes.grid, nodes.covered, seen[p]);
     }));
     for (const std::vector<float>& shares : seen)
       for (const float share : shares)
         r.visibility.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f))));
-    r.visibility_x = nodes.x, r.visibility_y = nodes.y;
+    r.visibility_x = nodes.grid.x, r.visibility_y = nodes.grid.y;
     return {};
   }
 
  private:
   // Those of the scene that shine on that plane where nothing is in the way, points and spots as what they are to it.
-  std::vector<LightOnReflector> lamps_before(const LitPlane& plane, LeftIn& left_in) const {
+  // flat_ones: not in mirrors, whose images have them.
+  std::vector<LightOnReflector> lamps_before(const LitPlane& plane, bool flat_ones, LeftIn& left_in) const {
     std::vector<LightOnReflector> lamps;
     const auto add = [&](std::size_t number, const PolygonLight& lamp, const Light* punctual) {
       double worth = 0;
@@ -286,7 +248,8 @@ class EmitterChooser {
         lamps.push_back(
             {.light = number, .lamp = lamp, .punctual = punctual, .worth = worth * luminance(lamp.radiance)});
     };
-    for (std::size_t l = 0; l < lights_.size(); ++l) add(l, lights_[l], nullptr);
+    for (std::size_t l = 0; l < lights_.size(); ++l)
+      if (flat_ones || lights_[l].triangles.empty()) add(l, lights_[l], nullptr);
     const Scene& scene = accel_.scene();
     for (std::size_t l = 0; l < scene.lights.size(); ++l)
       if (const auto square = punctual_square(scene, scene.lights[l], plane))
@@ -311,7 +274,6 @@ Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Con
   for (FoundReflector& found : reflectors) {
     Reflector& r = found.reflector;
     const double lobe_width = options.lobe_widths[r.material];
-    if (!(lobe_width > 0)) continue;
     LeftIn left_in;
     ORIEL_TRY(const std::vector<LightOnReflector> on, chooser.lights_on(found, lobe_width, left_in));
     const double most_parted = found.way == ReflectorWay::kGeometry ? kMostPartedOfGeometry : kMostParted;
@@ -340,11 +302,12 @@ Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Con
     }
     std::sort(found.emitters.begin(), found.emitters.end());
     if (!chosen.empty()) ORIEL_TRY_VOID(chooser.bake_visibility(chosen, found));
+    const char* const how = lobe_width > 0 ? "lamps are blurred with its radiance maps instead of shown exactly (their "
+                                             "edges are softer, their light is the same)"
+                                           : "points, spots and suns do not show in it";
     if (left_in.total() > 0)
-      omitted.push_back(fmt::format(
-          "'{}': {} of its lamps are blurred with its radiance maps instead of shown exactly (their edges are softer, "
-          "their light is the same): {}",
-          r.name, left_in.total(), left_in.reasons(options.max_lights)));
+      omitted.push_back(
+          fmt::format("'{}': {} of its {}: {}", r.name, left_in.total(), how, left_in.reasons(options.max_lights)));
   }
   const bool any_glossy = std::any_of(reflectors.begin(), reflectors.end(), [&](const FoundReflector& f) {
     return options.lobe_widths[f.reflector.material] > 0;

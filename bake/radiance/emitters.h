@@ -5,6 +5,7 @@
 #include "bake/jobs/context.h"
 #include "bake/radiance/reflectors.h"
 #include "formats/assets/emitter.h"
+#include "formats/query/reflector_nodes.h"
 
 namespace oriel {
 
@@ -13,14 +14,15 @@ struct EmitterOptions {
       lobe_widths;  // α of each material's lobe, 0 where it is as sharp as a mirror or shows no image
   // Between nodes of the visibility's grid, and how many of them along a side: to choose the lamps, and for those
   // chosen.
-  float choice_node_m = 0.5f, node_m = 0.125f;
-  std::uint32_t max_choice_nodes = 17, max_nodes = 65;
-  std::uint32_t samples = 32;     // rays from a node to an emitter
+  float choice_node_m = 0.5f, node_m = kNodeDistance_m;
+  std::uint32_t max_choice_nodes = 17, max_nodes = kMostNodesAlong;
+  std::uint32_t samples = 32;     // rays from a node to an emitter, at most
   std::uint32_t max_lights = 64;  // of a reflector whose visibility is computed: those that would light it most
 };
 
 // Lamps are the scene's flat ones and, since no map shows them, the sun (sun_emitter.h), points and spots
 // (punctual_emitter.h).
+// Mirrors list the latter alone: as glints, since their images have all that has a surface.
 // For each reflector with a lobe the lamps that light it most are left out of its maps: at most kMaxReflectorEmitters
 // polygons. Sets the reflectors' emitters, and in Reflector the emitters with their visibility; appends to `emitters`
 // what they refer to.

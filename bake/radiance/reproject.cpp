@@ -2,18 +2,6 @@
 
 namespace oriel {
 
-Vec3 reflector_from_pack(const Reflector& reflector, const Vec3& p) {
-  const Mat4& m = reflector.pack_from_reflector;
-  const DVec3 d = DVec3(p) - DVec3(Vec3(m[3]));
-  return Vec3(DVec3(glm::dot(d, DVec3(Vec3(m[0]))), glm::dot(d, DVec3(Vec3(m[1]))), glm::dot(d, DVec3(Vec3(m[2])))));
-}
-
-Vec3 pack_from_reflector(const Reflector& reflector, const Vec3& p) {
-  const Mat4& m = reflector.pack_from_reflector;
-  return Vec3(DVec3(Vec3(m[3])) + double{p.x} * DVec3(Vec3(m[0])) + double{p.y} * DVec3(Vec3(m[1])) +
-              double{p.z} * DVec3(Vec3(m[2])));
-}
-
 Vec2 map_point(const RadianceMap& map, const Vec2& pixel) {
   return map.lower + pixel / Vec2(map.width, map.height) * (map.upper - map.lower);
 }

@@ -1,14 +1,10 @@
 // Between the spaces of pack, reflector and radiance map (Bastos et al. 1999, section 8.1.3).
 #pragma once
 
-#include "formats/assets/radiance_map.h"
+#include "formats/query/reflector_nodes.h"
 
 namespace oriel {
 
-// Points between pack space and a reflector's space. Rigid both ways, by differences to the origin: no matrix is
-// inverted.
-Vec3 reflector_from_pack(const Reflector& reflector, const Vec3& p);
-Vec3 pack_from_reflector(const Reflector& reflector, const Vec3& p);
 // The mirror image in the reflector's plane, reflector space.
 inline Vec3 mirrored(const Vec3& p) {
   return {p.x, p.y, -p.z};

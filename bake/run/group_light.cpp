@@ -197,6 +197,9 @@ void assemble_light_groups(const BakedScene& baked, const std::vector<std::vecto
   for (const SceneLightGroup& group : scene.light_groups) {
     LightGroup& added = pack.light_groups.emplace_back();
     added.name = group.name, added.lamps = group.lamps;
+    if (group.motion < 0) continue;
+    const SceneMover& motion = scene.lamp_motions[static_cast<std::size_t>(group.motion)];
+    added.rest = motion.rest, added.keys = motion.keys;
   }
   const auto own = [&](std::uint32_t group, std::vector<std::uint32_t> LightGroup::*list, std::size_t index) {
     if (group != kNone) (pack.light_groups[group].*list).push_back(static_cast<std::uint32_t>(index));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "formats/core/check.h"
@@ -21,6 +22,7 @@ struct Lamp {
   std::string name, path, mesh, mark;
   std::vector<std::uint32_t> surfaces, lights;
   bool sky = false;
+  std::int32_t motion = -1;
   std::uint32_t group = kNone;
 };
 
@@ -52,12 +54,14 @@ std::vector<Lamp> find_lamps(const Scene& scene) {
     if (!shines(scene, surface)) continue;
     Lamp& lamp = lamp_at(surface.node_path, last_step(surface.node_path));
     lamp.surfaces.push_back(i), lamp.mesh = surface.mesh_name, lamp.mark = surface.group_mark;
+    lamp.motion = std::max(lamp.motion, surface.motion);
   }
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (light.hour >= 0) continue;
     Lamp& lamp = lamp_at(light.node_path, light.name);
     lamp.lights.push_back(i), lamp.mark = light.group_mark;
+    lamp.motion = std::max(lamp.motion, light.motion);
   }
   if (luminance(scene.sky) > 0 && scene.day.empty()) lamps.push_back({"sky", "sky", {}, {}, {}, {}, true});
   return lamps;
@@ -140,9 +144,31 @@ class Groups {
 
   void one_each() {
     for (Lamp& lamp : lamps_) {
-      std::string name = lamp.name;
-      for (int n = 2; std::ranges::find(names_, name) != names_.end(); ++n) name = fmt::format("{} {}", lamp.name, n);
-      lamp.group = group(name);
+      lamp.group = group(unused(lamp.name));
+    }
+  }
+
+  // What is animated moves as a group: it has none with a lamp that does not go along. Of those that get one for that
+  // the first few alone: light is kept for each, and takes seconds when it moves.
+  void by_motions(Context& context) {
+    std::size_t made = 0;
+    for (std::int32_t m = 0; m < static_cast<std::int32_t>(scene_.lamp_motions.size()); ++m) {
+      std::set<std::uint32_t> with_others;
+      for (const Lamp& lamp : lamps_)
+        if (lamp.motion != m) with_others.insert(lamp.group);
+      std::optional<std::uint32_t> own;
+      for (Lamp& lamp : lamps_) {
+        if (lamp.motion != m || (lamp.group != kNone && !with_others.contains(lamp.group))) continue;
+        if (!own && made == kMostMotions) continue;
+        const std::string& name = scene_.lamp_motions[static_cast<std::size_t>(m)].name;
+        if (lamp.group != kNone)
+          context.warning(
+              fmt::format("the lamp \"{}\" is animated: it leaves the group \"{}\", which is not, for one of "
+                          "its own",
+                          lamp.path, names_[lamp.group]));
+        if (!own) own = group(unused(name)), ++made;
+        lamp.group = *own;
+      }
     }
   }
 
@@ -174,9 +200,29 @@ class Groups {
       for (const std::uint32_t l : lamp.lights) scene_.lights[l].light_group = number;
       if (lamp.sky) scene_.sky_group = number;
     }
+    find_motions(context);
   }
 
  private:
+  std::string unused(const std::string& wanted) const {
+    std::string name = wanted;
+    for (int n = 2; std::ranges::find(names_, name) != names_.end(); ++n) name = fmt::format("{} {}", wanted, n);
+    return name;
+  }
+
+  // A group moves where all of its lamps do.
+  void find_motions(Context& context) {
+    std::vector<std::set<std::int32_t>> motions(scene_.light_groups.size());
+    for (const Lamp& lamp : lamps_) motions[lamp.group == kNone ? motions.size() - 1 : lamp.group].insert(lamp.motion);
+    for (std::size_t g = 0; g < motions.size(); ++g) {
+      if (motions[g].size() == 1)
+        scene_.light_groups[g].motion = *motions[g].begin();
+      else if (motions[g].size() > 1)
+        context.warning(fmt::format("the light group \"{}\" has lamps that are animated and others: they stand still",
+                                    scene_.light_groups[g].name));
+    }
+  }
+
   Status no_such_lamp(const std::string& file, const std::string& name, const std::string& pattern) const {
     std::vector<std::string> names;
     for (const Lamp& lamp : lamps_) names.push_back(lamp.name);
@@ -224,6 +270,9 @@ Result<LightGroupOptions> parse_light_groups(const std::string& text) {
 }
 
 Status assign_light_groups(const LightGroupOptions& options, Scene& scene, Context& context) {
+  if (options.by == LightGrouping::kOff && !scene.lamp_motions.empty())
+    context.warning(
+        fmt::format("{} lamps are animated: without light groups they stand still", scene.lamp_motions.size()));
   if (options.by == LightGrouping::kOff && scene.day.empty()) return {};
   Groups groups(scene);
   groups.by_hours();
@@ -231,6 +280,7 @@ Status assign_light_groups(const LightGroupOptions& options, Scene& scene, Conte
   if (options.by == LightGrouping::kMarked) groups.by_marks(context);
   if (options.by == LightGrouping::kAuto) groups.by_place();
   if (options.by == LightGrouping::kEach) groups.one_each();
+  if (options.by != LightGrouping::kOff) groups.by_motions(context);
   groups.write(context);
   return {};
 }

@@ -20,6 +20,8 @@ enum class LightGrouping : std::uint8_t {
 
 // Light is kept by texel and group: more than people switch one by one.
 inline constexpr std::size_t kMostLightGroups = 32;
+// Of them, made because the file animates their lamps.
+inline constexpr std::size_t kMostMotions = 8;
 // Of the lamps that are in no other.
 inline constexpr const char* kOtherLamps = "other lamps";
 
@@ -38,8 +40,9 @@ Result<LightGroupOptions> parse_light_groups(const std::string& text);
 // The hours of the scene's day are groups whatever is asked for. Gives every lamp of the scene (a node with an emissive
 // mesh, a punctual light, the sky) its group. Lamps in none of those asked for make one more, kOtherLamps. No groups
 // where there would be that one alone. Of more than kMostLightGroups the last are left to it, with a warning. A mark on
-// nodes without a lamp is a warning. Error kUsage: of a file, a name that no node has, a group without a lamp, a lamp
-// in two groups.
+// nodes without a lamp is a warning. Lamps that the file animates are no group's that has others: each motion gets one,
+// named as its node, where none is given, up to kMostMotions; the others stand still, with a warning. Error kUsage: of
+// a file, a name that no node has, a group without a lamp, a lamp in two groups.
 Status assign_light_groups(const LightGroupOptions& options, Scene& scene, Context& context);
 
 }  // namespace oriel

@@ -282,16 +282,17 @@ std::vector<Option> light_options(ImportOptions& import) {
   };
 }
 
-Option mover_option(ImportOptions& import) {
+std::vector<Option> mover_options(ImportOptions& import) {
   return {
-      "--mover",
-      kMovers,
-      "A node that moves, with what is below it, beside those that the file marks (extras.oriel.mover) or animates. "
-      "May be repeated",
-      texts(import.movers, "NODE"),
-      Use::kEveryday,
-      "movers",
-      "movers.md"};
+      {"--mover", kMovers,
+       "A node that moves, with what is below it, beside those that the file marks (extras.oriel.mover) or animates. "
+       "May be repeated",
+       texts(import.movers, "NODE"), Use::kEveryday, "movers", "movers.md"},
+      {"--move", kMovers,
+       "Puts a mover, or the middle of what shines of a node, there (world metres) and turns it about up by degrees, "
+       "before anything is computed. May be repeated",
+       each(import.moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); }),
+       Use::kRare, "moves", "lights.md#lamps-that-move"}};
 }
 
 std::vector<Option> scene_options(ImportOptions& import, bool& reproducible) {
@@ -332,7 +333,7 @@ std::vector<Option> bake_options(BakeOptions& o) {
                      light_groups(o), Use::kEveryday, "light_groups", "lights.md"});
   append(options, reflection_options(o));
   append(options, method_options(kReflections, o));
-  options.push_back(mover_option(o.import));
+  append(options, mover_options(o.import));
   append(options, transfer_options(o));
   options.push_back(unit_option(o.import, o.guess_unit));
   append(options, scene_options(o.import, o.reproducible));

@@ -16,7 +16,7 @@ BakeOptions command_line_defaults();
 // Light that the scene file does not hold.
 std::vector<Option> light_options(ImportOptions& import);
 // Which nodes move.
-Option mover_option(ImportOptions& import);
+std::vector<Option> mover_options(ImportOptions& import);
 // Which scene of the file, and how it is read and traced.
 std::vector<Option> scene_options(ImportOptions& import, bool& reproducible);
 // What a unit of the file is; guess: whether rooms are to tell (guessed_unit).

@@ -121,7 +121,7 @@ class Bake {
   void foretell_light() {
     double texels = 0;
     for (const TexelMapPage& page : prepared_.texel_map) texels += static_cast<double>(page.texel.size());
-    forecast_.expect("probes", prepared_.movers.empty() ? 0 : kLightField * Forecast::kTexel_s * texels);
+    forecast_.expect("probes", !prepared_.wants_light_field() ? 0 : kLightField * Forecast::kTexel_s * texels);
     forecast_.expect("first light", std::max(Forecast::kTexel_s * texels / thread_count(context_), kLeastLight_s));
   }
 
@@ -286,7 +286,7 @@ class Bake {
 
   // The light that movers meet.
   Status make_light_field() {
-    if (prepared_.movers.empty()) {
+    if (!prepared_.wants_light_field()) {
       if (options_.with_transfer)
         result_.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
       return {};

@@ -155,6 +155,10 @@ bool choose_directional(const Scene& scene, Directional wanted, std::vector<Warn
   return false;
 }
 
+bool PreparedScene::wants_light_field() const {
+  return !movers.empty() || std::ranges::any_of(scene().lights, [](const Light& light) { return light.motion >= 0; });
+}
+
 std::optional<double> guessed_unit(const Accel& accel, double unit_m, Context& context) {
   const auto guess = guess_unit(accel);
   if (!guess) return std::nullopt;

@@ -27,6 +27,8 @@ struct PreparedScene {
   std::vector<Warning> omissions;
 
   const Scene& scene() const { return imported->scene; }
+  // Movers meet it, and the player knows of it where points and spots are that it moves.
+  bool wants_light_field() const;
 };
 
 // Metres that a unit of the file is taken to be, where its rooms tell that it is not unit_m: as high as a tower, or as

@@ -85,6 +85,7 @@ struct Surface {
   std::uint32_t first_vertex = 0, vertex_count = 0;      // into the vertex arrays; not shared with other surfaces
   bool has_uv1 = false;
   std::int32_t mover = -1;        // into Scene::movers; -1: it stands still
+  std::int32_t motion = -1;       // into Scene::lamp_motions: a lamp that stands still in the bake alone
   std::string group_mark{};       // extras.oriel.light_group of its node, or of the nearest above it that has one
   std::uint32_t light_group = 0;  // into Scene::light_groups, where it shines and there are any
 };
@@ -124,6 +125,7 @@ struct Light {
   std::int32_t profile = -1;      // into Scene::profiles: then colour * candela, no cone, no intensity (point, spot)
   std::string node_path{};        // as Surface's
   std::string group_mark{};       // likewise
+  std::int32_t motion = -1;       // likewise
   std::uint32_t light_group = 0;  // into Scene::light_groups, where there are any
 };
 
@@ -131,6 +133,7 @@ struct Light {
 struct SceneLightGroup {
   std::string name;
   std::vector<std::string> lamps;  // names of nodes, of a sky "sky"
+  std::int32_t motion = -1;        // of all of them; into Scene::lamp_motions
 };
 
 // Radiance from all around on a latitude-longitude grid: row 0 ends at +Y, the last row at -Y; the centre is +X and +Z
@@ -171,6 +174,7 @@ struct Scene {
   std::vector<std::uint32_t> twin;
   std::vector<Surface> surfaces;
   std::vector<SceneMover> movers;
+  std::vector<SceneMover> lamp_motions;  // of lamps that the file animates: their light is baked where they rest
   std::vector<SceneMaterial> materials;
   std::vector<Image> images;
   std::vector<Light> lights;

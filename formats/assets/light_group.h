@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/assets/mover_motion.h"
 #include "formats/core/vec.h"
 
 namespace oriel {
@@ -23,6 +24,9 @@ struct LightGroup {
   // of the bright lights of its light field.
   std::vector<std::uint32_t> materials, emitters, bright_lights;
   bool sky = false;  // the sky is the group's
+  // Of the node that its lamps hang on, where the file animates it: as Mover's. The light was baked at rest.
+  MoverPose rest;
+  std::vector<MoverKey> keys;
   // By reflector and by surround map: the group's share of the light that it shows, 0 to 1 a channel.
   std::vector<Vec3> reflectors, surrounds;
   std::vector<Vec3> probes;  // likewise, by probe of the light field: of its harmonics

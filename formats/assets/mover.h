@@ -5,23 +5,11 @@
 #include <vector>
 
 #include "formats/assets/mesh.h"
+#include "formats/assets/mover_motion.h"
 #include "formats/assets/transfer.h"
 #include "formats/core/vec.h"
 
 namespace oriel {
-
-// Where a rigid object stands: a point p of it is at position + rotation · p.
-struct MoverPose {
-  Vec3 position{0};           // metres
-  Vec4 rotation{0, 0, 0, 1};  // unit quaternion x, y, z, w
-
-  bool operator==(const MoverPose&) const = default;
-};
-
-struct MoverKey {
-  float time_s = 0;
-  MoverPose pose;
-};
 
 struct Mover {
   std::string name;             // of its node

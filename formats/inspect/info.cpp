@@ -124,6 +124,7 @@ Json light_groups_json(const Pack& pack) {
                    {"color", triple(group.color)},
                    {"own_color", triple(group.own_color)},
                    {"sky", group.sky},
+                   {"keys", group.keys.size()},
                    {"pages", pages_of_group(pack, g)}});
   }
   return out;
@@ -337,9 +338,10 @@ void print_movers(const Pack& pack) {
         m.transfer.bytes_per_vertex(), 100 * m.transfer.error);
   for (std::size_t g = 0; g < pack.light_groups.size(); ++g) {
     const LightGroup& group = pack.light_groups[g];
-    fmt::print("light group '{}': {} lamps ({}{}), light on {} lightmap pages\n", group.name, group.lamps.size(),
+    fmt::print("light group '{}': {} lamps ({}{}), light on {} lightmap pages{}\n", group.name, group.lamps.size(),
                group.lamps.empty() ? "" : group.lamps.front(), group.lamps.size() > 1 ? ", …" : "",
-               pages_of_group(pack, g).size());
+               pages_of_group(pack, g).size(),
+               group.keys.empty() ? "" : fmt::format(", {} keys of an animation", group.keys.size()));
   }
   const LightField& field = pack.light_field;
   if (field.bands > 0)

@@ -124,6 +124,9 @@ void validate_kernels(const Pack& pack, IssueList& list);
 void validate_fresnel_maps(const Pack& pack, IssueList& list);
 void validate_split_reflectance(const Pack& pack, IssueList& list);
 void validate_emitters(const Pack& pack, IssueList& list);
+// Of movers and of lamps.
+void validate_motion(const std::string& whose, const MoverPose& rest, const std::vector<MoverKey>& keys,
+                     IssueList& list);
 void validate_kernel_fits(const Pack& pack, IssueList& list);
 void validate_walk_grids(const Pack& pack, IssueList& list);
 void validate_visible_sets(const Pack& pack, IssueList& list);

@@ -28,9 +28,12 @@ void describe(Serial& s, LightGroup& group) {
   s(group.value, group.color, group.own_color);
   for (auto* indices : {&group.materials, &group.emitters, &group.bright_lights}) s.array(*indices, s.count(*indices));
   s.choice("sky flag", 1, group.sky);
-  s.reserved(3);
+  bool moves = !group.keys.empty();
+  s.choice("motion flag", 1, moves);
+  s.reserved(2);
   for (auto* shares : {&group.reflectors, &group.surrounds, &group.probes})
     s.list(*shares, s.count(*shares), [&](Vec3& share) { s(share); });
+  if (moves) describe_motion(s, group.rest, group.keys);
 }
 
 void describe(Serial& s, PageGroups& page) {

@@ -118,13 +118,17 @@ void describe_probes(Serial& s, LightField& field, std::uint32_t count) {
 
 }  // namespace
 
-void describe(Serial& s, Mover& mover) {
-  s(mover.name);
-  describe(s, mover.rest);
-  s.list(mover.keys, s.count(mover.keys), [&](MoverKey& key) {
+void describe_motion(Serial& s, MoverPose& rest, std::vector<MoverKey>& keys) {
+  describe(s, rest);
+  s.list(keys, s.count(keys), [&](MoverKey& key) {
     s(key.time_s);
     describe(s, key.pose);
   });
+}
+
+void describe(Serial& s, Mover& mover) {
+  s(mover.name);
+  describe_motion(s, mover.rest, mover.keys);
   describe(s, mover.mesh);
   describe(s, mover.mesh.positions.size(), mover.transfer);
 }

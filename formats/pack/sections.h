@@ -32,6 +32,8 @@ void describe(Serial& s, ReflectedSets& sets);
 void describe(Serial& s, Mover& mover);
 void describe(Serial& s, LightField& field);
 void describe(Serial& s, LightGroup& group);
+// Of movers and of lamps.
+void describe_motion(Serial& s, MoverPose& rest, std::vector<MoverKey>& keys);
 void describe(Serial& s, PageGroups& page);
 void describe(Serial& s, Day& day);
 

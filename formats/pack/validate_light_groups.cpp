@@ -39,6 +39,7 @@ void validate_group(const Pack& pack, const LightGroup& group, IssueList& list) 
                "group '{}': found shares of {} reflectors, {} surround maps and {} probes, expected of {}, {} and {}",
                group.name, group.reflectors.size(), group.surrounds.size(), group.probes.size(), pack.reflectors.size(),
                pack.surround_maps.size(), probes);
+  validate_motion(fmt::format("group '{}'", group.name), group.rest, group.keys, list);
   for (const auto* shares : {&group.reflectors, &group.surrounds, &group.probes})
     list.each(
         764, "shares of maps", *shares, [](const Vec3& v) { return within(v, 0, 1); }, "0 to 1");

@@ -25,20 +25,6 @@ bool is_rigid(const MoverPose& pose) {
   return bounded(pose.position) && std::abs(glm::length(DVec4(pose.rotation)) - 1) <= 1e-3;
 }
 
-void validate_motion(std::size_t i, const Mover& mover, IssueList& list) {
-  const auto bad = std::count_if(mover.keys.begin(), mover.keys.end(),
-                                 [](const MoverKey& key) { return !std::isfinite(key.time_s) || !is_rigid(key.pose); });
-  if (!is_rigid(mover.rest) || bad > 0)
-    list.error(731, "mover {} ('{}'): found {} keys, or its rest, without a finite place and a unit quaternion", i,
-               mover.name, bad);
-  for (std::size_t k = 1; k < mover.keys.size(); ++k)
-    if (!(mover.keys[k].time_s >= mover.keys[k - 1].time_s)) {
-      list.error(732, "mover {} ('{}'): found time {} s of key {} after {} s, expected rising times", i, mover.name,
-                 mover.keys[k].time_s, k, mover.keys[k - 1].time_s);
-      break;
-    }
-}
-
 void validate_transfer(std::size_t i, const Mover& mover, IssueList& list) {
   const CompressedTransfer& t = mover.transfer;
   const bool shape = t.bands >= 2 && t.bands <= 6 && (t.channels == 1 || t.channels == 3) && t.clusters >= 1 &&
@@ -106,11 +92,25 @@ void validate_light(std::size_t i, const BrightLight& light, IssueList& list) {
 
 }  // namespace
 
+void validate_motion(const std::string& whose, const MoverPose& rest, const std::vector<MoverKey>& keys,
+                     IssueList& list) {
+  const auto bad = std::count_if(keys.begin(), keys.end(),
+                                 [](const MoverKey& key) { return !std::isfinite(key.time_s) || !is_rigid(key.pose); });
+  if (!is_rigid(rest) || bad > 0)
+    list.error(731, "{}: found {} keys, or its rest, without a finite place and a unit quaternion", whose, bad);
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    if (!(keys[k].time_s >= keys[k - 1].time_s)) {
+      list.error(732, "{}: found time {} s of key {} after {} s, expected rising times", whose, keys[k].time_s, k,
+                 keys[k - 1].time_s);
+      break;
+    }
+}
+
 void validate_movers(const Pack& pack, IssueList& list) {
   for (std::size_t i = 0; i < pack.movers.size(); ++i) {
     const Mover& mover = pack.movers[i];
     list.in_section(kMoverSection, i);
-    validate_motion(i, mover, list);
+    validate_motion(fmt::format("mover {} ('{}')", i, mover.name), mover.rest, mover.keys, list);
     validate_mesh(pack, mover.mesh, list);
     validate_transfer(i, mover, list);
     for (const MeshPart& part : mover.mesh.parts)

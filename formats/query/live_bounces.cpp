@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "formats/core/color.h"
+#include "formats/core/low_discrepancy.h"
 #include "formats/core/parallel.h"
 
 namespace oriel {
@@ -19,18 +20,6 @@ constexpr int kFarthest = 2;                              // texels, from where 
 constexpr float kSamePlane = 0.95f;                       // cosine between normals of neighbours
 constexpr float kAlike = 0.5f;     // cosine between normals of the place where a ray ends and of a texel beside it
 constexpr float kOffPlane = 0.1f;  // of their distance
-
-float fraction(double x) {
-  return static_cast<float>(x - std::floor(x));
-}
-
-// Of a low-discrepancy sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences", R2), shifted
-// for each row.
-Vec2 place(std::uint32_t ray, std::uint32_t row) {
-  const std::uint32_t a = row * 0x9e3779b9u, b = (row ^ 0x68bc21ebu) * 0x85ebca6bu;
-  return {fraction(ray * 0.7548776662466927 + (a ^ a >> 15) * 0x1p-32),
-          fraction(ray * 0.5698402909980532 + (b ^ b >> 13) * 0x1p-32)};
-}
 
 void for_rows(std::size_t rows, const std::atomic<bool>* stop, const std::function<void(std::size_t)>& each) {
   for_each_parallel((rows + kRun - 1) / kRun, core_count(), [&](std::size_t run) {
@@ -80,7 +69,7 @@ void LiveBounces::look_again(const LampScene& scene) {
     const LightmapPage& page = pages_[rows_[row].page];
     Vec3 sum(0);
     for (std::uint32_t i = 0; i < kPlaces; ++i) {
-      const Vec2 off = (place(i, static_cast<std::uint32_t>(row)) - 0.5f) / Vec2(page.width, page.height);
+      const Vec2 off = (shifted_r2(i, static_cast<std::uint32_t>(row)) - 0.5f) / Vec2(page.width, page.height);
       sum += scene.reflectance(point.part, point.first_index, shares_beside(scene.mesh(), point, off));
     }
     reflectance_[row] = sum / static_cast<float>(kPlaces);
@@ -105,7 +94,7 @@ void LiveBounces::trace(std::uint32_t rays, const std::atomic<bool>* stop) {
 
 std::uint32_t LiveBounces::met(std::size_t row, std::uint32_t ray) const {
   const PagePoint& point = *rows_[row].point;
-  const Vec3 direction = cosine_direction(place(ray, static_cast<std::uint32_t>(row)), point.normal);
+  const Vec3 direction = cosine_direction(shifted_r2(ray, static_cast<std::uint32_t>(row)), point.normal);
   const auto lit = scene_->lit_place(point.position + scene_->offset_m() * point.normal, direction);
   return lit && lit->page < pages_.size() ? row_near(*lit) : kNone;
 }

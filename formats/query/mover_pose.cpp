@@ -39,6 +39,14 @@ DMat4 pack_from_object(const MoverPose& pose) {
   return matrix;
 }
 
+MoverPose motion_between(const MoverPose& from, const MoverPose& to) {
+  const auto in_double = [](const Vec4& r) { return glm::normalize(glm::dquat(r.w, r.x, r.y, r.z)); };
+  const glm::dquat turn = in_double(to.rotation) * glm::conjugate(in_double(from.rotation));
+  const DVec3 by = DVec3(to.position) - DVec3(from.position), axis(turn.x, turn.y, turn.z);
+  if (glm::dot(by, by) < 1e-12 && glm::dot(axis, axis) < 1e-12) return {};
+  return {Vec3(DVec3(to.position) - turn * DVec3(from.position)), stored(glm::quat(turn))};
+}
+
 Result<MoverMove> parse_move(std::string_view text) {
   const std::size_t equals = text.rfind('=');
   MoverMove move;

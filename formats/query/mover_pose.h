@@ -16,6 +16,8 @@ namespace oriel {
 MoverPose pose_at(const MoverPose& rest, std::span<const MoverKey> keys, double time_s);
 
 DMat4 pack_from_object(const MoverPose& pose);
+// What takes an object from one place to another: pack space to pack space. Less than a micrometre: exactly none.
+MoverPose motion_between(const MoverPose& from, const MoverPose& to);
 
 // A mover put somewhere by hand.
 struct MoverMove {

@@ -180,7 +180,7 @@ Status compare_with_pack(GpuScene& scene, Renderer& renderer, const gpu::Device&
   ORIEL_TRY(const Camera camera, choose_camera(scene, arguments));
   FrameOptions options = arguments.frame;
   ORIEL_TRY(options.poses, poses_at(scene.pack(), arguments.moves, arguments.time_s));
-  ORIEL_TRY(options.lamps, lamps_at(scene.pack(), arguments.moves));
+  ORIEL_TRY(options.lamps, lamps_at(scene.pack(), arguments.moves, arguments.time_s));
   const View view = make_view(camera, arguments.width, arguments.height, bounds_with_movers(scene, options.poses));
   ORIEL_TRY_VOID(renderer.render(scene, view, options));
   ORIEL_TRY(const std::optional<float> metered, renderer.meter());
@@ -218,7 +218,7 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(const auto renderer, Renderer::create(device));
   FrameOptions options = arguments.frame;
   ORIEL_TRY(options.poses, poses_at(scene->pack(), arguments.moves, arguments.time_s));
-  ORIEL_TRY(options.lamps, lamps_at(scene->pack(), arguments.moves));
+  ORIEL_TRY(options.lamps, lamps_at(scene->pack(), arguments.moves, arguments.time_s));
   const View view = make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height),
                               bounds_with_movers(*scene, options.poses));
   if (!reference.rendered) {

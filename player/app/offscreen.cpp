@@ -49,7 +49,7 @@ class Studio {
 
   // What takes seconds is told before: lamps' light from where they were moved to, which the first frame follows.
   Status foretell() const {
-    ORIEL_TRY(const std::vector<MoverPose> lamps, lamps_at(scene_.pack(), arguments_.moves));
+    ORIEL_TRY(const std::vector<MoverPose> lamps, lamps_at(scene_.pack(), arguments_.moves, arguments_.time_s));
     for (std::size_t g = 0; g < lamps.size(); ++g) {
       const bool shines = g >= options_.lights.size() || options_.lights[g] != Vec3(0);
       if (shines && !is_rest(lamps[g]))
@@ -73,6 +73,7 @@ class Studio {
       records.push_back({shot.name, took.count(), stats, zone_.holds(shot.camera.eye)});
     }
     FrameRecord record = median_record(records);
+    record.live_s = tell_of_lamps();
     if (!arguments_.stats.empty()) ORIEL_TRY_VOID(count_holes(view, record.stats));
     return record;
   }
@@ -140,19 +141,28 @@ class Studio {
   }
 
   void tell(const Shot& shot, const FrameRecord& record) const {
-    for (const std::string& news : scene_.take_live_news()) fmt::print(stderr, "{}\n", news);
     fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({})\n", shot.file.empty() ? "frame" : shot.file,
                arguments_.width, arguments_.height, record.ms, session_.shown_ev100,
                describe(record.stats, record.in_zone), shot.name);
   }
 
  private:
+  // Seconds that their light took.
+  double tell_of_lamps() const {
+    double seconds = 0;
+    for (const LiveReport& report : scene_.take_live_reports()) {
+      fmt::print(stderr, "{}\n", text_of(report));
+      seconds += report.seconds;
+    }
+    return seconds;
+  }
+
   IVec2 size() const { return arguments_.supersample * IVec2(arguments_.width, arguments_.height); }
 
   // Movers and lamps, so long into a path.
   Status place(float time_s) {
     ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + time_s));
-    ORIEL_TRY(options_.lamps, lamps_at(scene_.pack(), arguments_.moves));
+    ORIEL_TRY(options_.lamps, lamps_at(scene_.pack(), arguments_.moves, arguments_.time_s + time_s));
     return {};
   }
 

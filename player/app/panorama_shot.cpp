@@ -35,7 +35,7 @@ class PanoramaStudio {
 
   Status draw(const Shot& shot) {
     ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s));
-    ORIEL_TRY(options_.lamps, lamps_at(scene_.pack(), arguments_.moves));
+    ORIEL_TRY(options_.lamps, lamps_at(scene_.pack(), arguments_.moves, arguments_.time_s));
     const PanoramaViews views = panorama_views(shot.camera, arguments_.width);
     PictureNotes notes{views.cameras[0], scene_.pack().mesh.origin, shot.name, 0, arguments_.curve};
     notes.camera.vertical_fov_rad = kPi;

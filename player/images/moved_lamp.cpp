@@ -1,13 +1,15 @@
 #include "player/images/moved_lamp.h"
 
+#include "player/navigation/lamps.h"
+
 namespace oriel {
 
-MovedLamp::MovedLamp(const Pack& pack, const LightGroup& group, std::span<const std::uint32_t> parts,
-                     const MoverPose& pose)
-    : materials_(group.materials), emitters_(group.emitters) {
+MovedLamp::MovedLamp(const Pack& pack, const LightGroup& group, const MoverPose& pose,
+                     std::vector<std::uint32_t> in_closed_form)
+    : materials_(group.materials), in_closed_form_(std::move(in_closed_form)) {
   const Mat4 pack_from_lamp(pack_from_object(pose));
   Vec3 lower(std::numeric_limits<float>::infinity()), upper(-lower);
-  for (const std::uint32_t p : parts) {
+  for (const std::uint32_t p : shape_of_lamp(pack, group).parts) {
     MeshPart part = pack.mesh.parts[p];
     const std::uint32_t first = std::exchange(part.first_index, static_cast<std::uint32_t>(mesh_.indices.size()));
     for (std::uint32_t i = first; i < first + part.index_count; ++i) {
@@ -35,12 +37,6 @@ std::optional<MovedLamp::Seen> MovedLamp::along(const Vec3& from, const Vec3& di
   if (!hit) return std::nullopt;
   const Surface& surface = surfaces_[rays_->part(hit->first_index).value_or(0)];
   return Seen{hit->front || surface.two_sided ? surface.emission : Vec3(0), hit->distance};
-}
-
-bool MovedLamp::is_emitter_of(const Reflector& reflector) const {
-  return std::ranges::any_of(reflector.emitters, [&](std::uint32_t emitter) {
-    return std::ranges::find(emitters_, emitter) != emitters_.end();
-  });
 }
 
 }  // namespace oriel

@@ -26,8 +26,22 @@ LampShape shape_of_lamp(const Pack& pack, const LightGroup& group) {
   return out;
 }
 
-Result<std::vector<MoverPose>> lamps_at(const Pack& pack, std::span<const MoverMove> moves) {
+// Empty: none is elsewhere than it was baked.
+static std::vector<MoverPose> animated(const Pack& pack, double time_s) {
   std::vector<MoverPose> poses;
+  for (std::size_t g = 0; g < pack.light_groups.size(); ++g) {
+    const LightGroup& group = pack.light_groups[g];
+    if (group.keys.empty() || shape_of_lamp(pack, group).empty()) continue;
+    const MoverPose motion = motion_between(group.rest, pose_at(group.rest, group.keys, time_s));
+    if (is_rest(motion)) continue;
+    poses.resize(pack.light_groups.size());
+    poses[g] = motion;
+  }
+  return poses;
+}
+
+Result<std::vector<MoverPose>> lamps_at(const Pack& pack, std::span<const MoverMove> moves, double time_s) {
+  std::vector<MoverPose> poses = animated(pack, time_s);
   for (const MoverMove& move : moves) {
     if (std::ranges::find(pack.movers, move.node, &Mover::name) != pack.movers.end()) continue;
     const auto group = std::ranges::find(pack.light_groups, move.node, &LightGroup::name);
@@ -40,7 +54,7 @@ Result<std::vector<MoverPose>> lamps_at(const Pack& pack, std::span<const MoverM
                   move.node);
     poses.resize(pack.light_groups.size());
     MoverPose& pose = poses[static_cast<std::size_t>(group - pack.light_groups.begin())];
-    pose = moved({}, move, pack.mesh.origin);
+    pose = moved({}, move, pack.mesh.origin);  // whatever the animation says
     const Mat3 turn(pack_from_object(pose));
     pose.position -= turn * lamp.centre;
     // What is moved to where it is stays to the bit.

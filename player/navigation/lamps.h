@@ -15,9 +15,10 @@ struct LampShape {
 };
 LampShape shape_of_lamp(const Pack& pack, const LightGroup& group);
 
-// By light group, the pose that takes it from where it was baked to where the moves put its centre: pack space to pack
-// space. Moves of movers do not count. Empty: no lamp is moved. Error kUsage for a group that has nothing to be moved.
-Result<std::vector<MoverPose>> lamps_at(const Pack& pack, std::span<const MoverMove> moves);
+// By light group, the pose that takes it from where it was baked to where it is: pack space to pack space. That is
+// where the moves put its centre, else where its animation has it at that time. Moves of movers do not count. Empty: no
+// lamp is moved. Error kUsage for a move of a group that has nothing to be moved.
+Result<std::vector<MoverPose>> lamps_at(const Pack& pack, std::span<const MoverMove> moves, double time_s);
 
 // A pose that leaves all where it is.
 inline bool is_rest(const MoverPose& pose) {

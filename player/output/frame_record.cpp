@@ -20,6 +20,7 @@ nlohmann::ordered_json as_json(const FrameRecord& record) {
   for (std::size_t i = 0; i < kPassNames.size(); ++i) passes[kPassNames[i]] = s.ms[i];
   return {{"camera", record.camera},
           {"ms", record.ms},
+          {"live_s", record.live_s},
           {"pass_ms", passes},
           {"draws", s.draws},
           {"triangles", s.triangles},

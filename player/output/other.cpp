@@ -91,7 +91,7 @@ Status Other::draw(const Seen& seen) {
            std::ranges::find(pack.light_groups, move.node, &LightGroup::name) == pack.light_groups.end();
   });
   ORIEL_TRY(options.poses, poses_at(pack, moves, seen.time_s));
-  ORIEL_TRY(options.lamps, lamps_at(pack, moves));
+  ORIEL_TRY(options.lamps, lamps_at(pack, moves, seen.time_s));
   Camera camera = seen.camera;
   camera.eye = Vec3(DVec3(camera.eye) + seen.origin - pack.mesh.origin);
   const View view = make_view(camera, seen.width, seen.height, bounds_with_movers(*scene_, options.poses));

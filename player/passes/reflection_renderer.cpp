@@ -263,7 +263,7 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
                                     (static_cast<float>(eyes.width) * static_cast<float>(eyes.height))};
   MirroredScene mirrored{visible_batches(scene.opaque(), make_frustum(view.clip_from_pack),
                                          sets_hold(work.context, target) ? reflector.seen : std::nullopt),
-                         pack.reflectors[reflector.index].emitters,
+                         reflector.listed,
                          {}};
   if (inside.mirrors < most_orders(options) && ++image_count_ <= kMostImages) {
     ORIEL_TRY_VOID(draw_mirrors_in(within, inside, mirrored));

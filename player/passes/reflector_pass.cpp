@@ -196,23 +196,23 @@ const gpu::Program* ReflectorPass::set_emitters(const FrameContext& context, con
   const GpuEmitters& emitters = reflector.emitters;
   const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel, options.coarse);
   // M shows a mirror's world, in which a glossy lobe has no place.
-  if (options.show == Show::kM || !emitters.polygons || !kernel.fits) return nullptr;
-  const gpu::Program& program = options.blur == Blur::kOff ? emitters_sharp_ : emitters_;
+  if (!emitters.polygons || (options.show == Show::kM && kernel.fits)) return nullptr;
+  const bool sharp = options.blur == Blur::kOff || !kernel.fits;
+  const gpu::Program& program = sharp ? emitters_sharp_ : emitters_;
   program.use();
   program.set("u_polygons", 2);
   program.set("u_visibility", 3);
   program.set("u_seen", 4);
-  program.set("u_lobes", 5);
   emitters.polygons.bind(2);
   emitters.visibility.bind(3);
   emitters.seen.bind(4);
-  kernel.fits.bind(5);
+  if (!sharp) kernel.fits.bind(5);
   const Reflector& shape = pack.reflectors[reflector.index];
   program.set("u_cells", IVec2(emitters.cells_x, emitters.cells_y));
   program.set("u_lower", shape.lower / reflector.size);
   program.set("u_upper", shape.upper / reflector.size);
   program.set("u_emitters_from_pack", Mat4(Mat3(1 / reflector.size)) * reflector.reflector_from_pack);
-  program.set("u_lobe_rows", kernel.fits.width());
+  if (!sharp) program.set("u_lobes", 5), program.set("u_lobe_rows", kernel.fits.width());
   return &program;
 }
 

@@ -24,9 +24,9 @@ std::vector<std::array<Vec3, 4>> before_plane(const Emitter& emitter, const Mat4
 }
 
 // The corners' shares of an emitter, cell by cell.
-std::vector<Texel> cells_of(const Reflector& reflector, std::size_t emitter) {
-  const std::size_t width = reflector.visibility_x, height = reflector.visibility_y;
-  const std::uint8_t* const nodes = reflector.visibility.data() + emitter * width * height;
+std::vector<Texel> cells_of(const ListedEmitters& listed, std::size_t emitter) {
+  const std::size_t width = listed.visibility_x, height = listed.visibility_y;
+  const std::uint8_t* const nodes = listed.visibility.data() + emitter * width * height;
   std::vector<Texel> cells;
   for (std::size_t y = 0; y + 1 < height; ++y)
     for (std::size_t x = 0; x + 1 < width; ++x) {
@@ -38,19 +38,20 @@ std::vector<Texel> cells_of(const Reflector& reflector, std::size_t emitter) {
 
 }  // namespace
 
-GpuEmitters upload_emitters(const Pack& pack, const Reflector& reflector, const Mat4& reflector_from_pack, float size) {
+GpuEmitters upload_emitters(const Pack& pack, const ListedEmitters& listed, const Mat4& reflector_from_pack,
+                            float size) {
   static_assert(2 * kMaxReflectorEmitters <= 128);  // polygons, a bit each
   GpuEmitters out;
-  if (reflector.emitters.empty() || !(size > 0)) return out;
-  out.cells_x = static_cast<int>(reflector.visibility_x) - 1;
-  out.cells_y = static_cast<int>(reflector.visibility_y) - 1;
+  if (listed.emitters.empty() || !(size > 0)) return out;
+  out.cells_x = static_cast<int>(listed.visibility_x) - 1;
+  out.cells_y = static_cast<int>(listed.visibility_y) - 1;
   std::vector<Vec4> polygons;
   std::vector<Texel> visibility;
   std::vector<std::array<std::uint32_t, 4>> seen(static_cast<std::size_t>(out.cells_x) *
                                                  static_cast<std::size_t>(out.cells_y));
-  for (std::size_t e = 0; e < reflector.emitters.size(); ++e) {
-    const Emitter& emitter = pack.emitters[reflector.emitters[e]];
-    const std::vector<Texel> cells = cells_of(reflector, e);
+  for (std::size_t e = 0; e < listed.emitters.size(); ++e) {
+    const Emitter& emitter = pack.emitters[listed.emitters[e]];
+    const std::vector<Texel> cells = cells_of(listed, e);
     for (const std::array<Vec3, 4>& v : before_plane(emitter, reflector_from_pack, size)) {
       const std::size_t polygon = polygons.size() / 4;
       const std::uint32_t bit = 1u << polygon % 32;
@@ -63,7 +64,7 @@ GpuEmitters upload_emitters(const Pack& pack, const Reflector& reflector, const 
     visibility.insert(visibility.end(), cells.begin(), cells.end());
   }
   if (polygons.empty()) return out;
-  const auto count = static_cast<int>(reflector.emitters.size());
+  const auto count = static_cast<int>(listed.emitters.size());
   out.polygons = {gpu::kRgba32f, 4, static_cast<int>(polygons.size() / 4), polygons.data()};
   out.visibility = {gpu::kRgba8, out.cells_x, out.cells_y * count, visibility.data()};
   out.seen = {gpu::kRgba32ui, out.cells_x, out.cells_y, seen.data()};

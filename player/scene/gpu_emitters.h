@@ -1,6 +1,8 @@
 // The emitters that a glossy reflector's maps leave out, as shaders/passes/reflector_emitters.glsl reads them.
 #pragma once
 
+#include <span>
+
 #include "formats/pack/pack.h"
 #include "player/gpu/texture.h"
 
@@ -15,7 +17,17 @@ struct GpuEmitters {
   gpu::Texture2d visibility;     // the shares at a cell's nodes (x, y), (x+1, y), (x, y+1), (x+1, y+1); by emitter
   gpu::Texture2d seen;           // bit k of a cell's 128: polygon k is seen from any of its nodes
 };
+// Which of the pack's emitters a reflector shows in closed form, and what its nodes see of them, as Reflector has both.
+struct ListedEmitters {
+  std::span<const std::uint32_t> emitters;
+  std::uint32_t visibility_x = 0, visibility_y = 0;
+  std::span<const std::uint8_t> visibility;
+};
+inline ListedEmitters listed_by(const Reflector& r) {
+  return {r.emitters, r.visibility_x, r.visibility_y, r.visibility};
+}
 // size: metres.
-GpuEmitters upload_emitters(const Pack& pack, const Reflector& reflector, const Mat4& reflector_from_pack, float size);
+GpuEmitters upload_emitters(const Pack& pack, const ListedEmitters& listed, const Mat4& reflector_from_pack,
+                            float size);
 
 }  // namespace oriel

@@ -197,7 +197,8 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices, bool sets_kn
     out.elements = group_by_element(r, pack_.radiance_maps);
     if (out.elements.empty()) out.mean_distance = mean_height(pack_.mesh, out.reflector_from_pack);
     if (sets_known) out.seen = seen_in(pack_, i);
-    out.emitters = upload_emitters(pack_, r, out.reflector_from_pack, out.size);
+    out.listed = r.emitters;
+    out.emitters = upload_emitters(pack_, listed_by(r), out.reflector_from_pack, out.size);
     reflectors_.push_back(std::move(out));
   }
 }

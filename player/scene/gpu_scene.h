@@ -36,8 +36,9 @@ struct GpuReflector {
   // maps it is that of all triangles before it.
   float mean_distance = 0;
   // Once bring_maps() has been called:
-  Vec3 mean_radiance{0};  // of its maps: shown where none of them has anything
-  GpuEmitters emitters;   // that its maps leave out
+  Vec3 mean_radiance{0};              // of its maps: shown where none of them has anything
+  std::vector<std::uint32_t> listed;  // into Pack::emitters: shown in closed form, left out of its maps and images
+  GpuEmitters emitters;
 };
 
 struct GpuCurvedReflector {
@@ -57,6 +58,7 @@ struct GpuKernel {
 };
 
 class LiveLamps;
+struct LiveReport;
 
 std::uint64_t next_scene_serial();
 
@@ -79,7 +81,7 @@ class GpuScene {
   // the other: whether the next set_lamps() and the frame after it show more of it.
   bool has_live_news() const;
   // What is to be told of lamps that moved, each once.
-  std::vector<std::string> take_live_news();
+  std::vector<LiveReport> take_live_reports();
 
   // Before a frame of this view: what it shows comes first, and within a limit as fine as there is room for. Not in the
   // background all of that is there afterwards, but for maps. Errors of images.
@@ -200,6 +202,7 @@ class GpuScene {
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   void begin_fewer();
   void move_lamps(std::span<const MoverPose> poses);
+  void list_emitters(GpuReflector& reflector) const;
   MapFactors factors_of_maps() const;
   Pack pack_;
   std::uint64_t serial_ = 0, geometry_serial_ = 0;

@@ -8,6 +8,7 @@
 
 #include "formats/core/color.h"
 #include "formats/core/parallel.h"
+#include "player/scene/emitter_ranges.h"
 #include "player/scene/live_page.h"
 
 namespace oriel {
@@ -15,6 +16,12 @@ namespace {
 
 constexpr float kSlack = 0.01f;                                 // metres: a lamp may lie on the ceiling
 constexpr std::uint32_t kCoarseShare = 16, kFewestCoarse = 16;  // of the lights, while a lamp is on its way
+
+// Polygons that stand for a point or a spot are made for one reflector each.
+std::int64_t first_that_lists(std::span<const Reflector> reflectors, std::uint32_t emitter) {
+  const auto lists = [&](const Reflector& r) { return std::ranges::find(r.emitters, emitter) != r.emitters.end(); };
+  return std::ranges::find_if(reflectors, lists) - reflectors.begin();
+}
 
 }  // namespace
 
@@ -40,6 +47,8 @@ struct LiveLamps::Lamp {
   std::vector<std::vector<PagePoint>> points;  // by page
   std::vector<LightmapPage> pages;             // what LivePage wants of them
   std::unique_ptr<LiveBounces> bounces;
+  std::vector<std::int64_t> shown_by;  // as EmitterQuestion::of, by LightGroup::emitters
+  std::vector<EmitterView> views;      // of `told`
   MoverPose wanted;
   MoverPose told;           // that `added` is for
   bool whole = true;        // it is of all lights
@@ -56,17 +65,21 @@ struct LiveLamps::Job {
   LiveSettings settings;
   bool coarse = false;
   PosedLights now, baked;
+  std::vector<Emitter> emitters;  // at the pose
   std::atomic<bool> stop{false};
   // What comes of it.
   PageChanges added;
+  std::vector<EmitterView> views;
   LiveReport report;
   Status status;
   std::future<void> done;  // last: what it writes outlives it
 
-  void run(const ImageSource& images);
+  // alphas: of the reflectors' lobes.
+  void run(const ImageSource& images, std::span<const Reflector> reflectors, std::span<const float> alphas);
 };
 
-void LiveLamps::Job::run(const ImageSource& images) {
+void LiveLamps::Job::run(const ImageSource& images, std::span<const Reflector> reflectors,
+                         std::span<const float> alphas) {
   const auto start = std::chrono::steady_clock::now();
   const LiveWork work{*lamp->scene, {now, baked}, settings.mode, coarse, &stop};
   std::vector<LivePage> pages;
@@ -92,6 +105,7 @@ void LiveLamps::Job::run(const ImageSource& images) {
     }
     added.push_back(pages[p].change(std::move(direct[p]), *own, bounced ? &*bounced : nullptr, totals));
   }
+  if (!coarse) views = emitter_views({reflectors, alphas, emitters, lamp->shown_by}, *lamp->scene, pose, &stop);
   report.lights = now.of.lights.size(), report.direct = now.of.direct;
   report.points = static_cast<std::size_t>(totals.points), report.between = static_cast<std::size_t>(totals.between);
   report.missing = totals.now > 0 ? static_cast<float>(totals.missing / totals.now) : 0.0f;
@@ -106,9 +120,15 @@ LiveLamps::LiveLamps(const Pack& pack, const ImageSource& images)
     : pack_(pack),
       images_(images),
       lights_(pack.light_field.lights),
+      emitters_(pack.emitters),
       least_(std::numeric_limits<float>::max()),
       most_(std::numeric_limits<float>::lowest()) {
   for (const Material& material : pack.materials) emission_.push_back(material.emission);
+  for (const Reflector& r : pack.reflectors) {
+    const std::int32_t kernel = pack.materials[r.material].kernel;
+    const bool has_lobe = kernel >= 0 && !pack.kernels[static_cast<std::size_t>(kernel)].fits.empty();
+    alphas_.push_back(has_lobe ? pack.kernels[static_cast<std::size_t>(kernel)].alpha : 0.0f);
+  }
   for (const Vec3& p : pack.mesh.positions) least_ = glm::min(least_, p), most_ = glm::max(most_, p);
 }
 
@@ -137,6 +157,8 @@ Result<LiveLamps::Lamp*> LiveLamps::lamp_of(std::size_t group) {
     page.standard_error = {}, page.direction = {};
     lamp->pages.push_back(std::move(page));
   }
+  for (const std::uint32_t e : pack_.light_groups[group].emitters)
+    lamp->shown_by.push_back(triangles_of(emitters_[e], pack_).empty() ? first_that_lists(pack_.reflectors, e) : -1);
   return (lamps_[group] = std::move(lamp)).get();
 }
 
@@ -161,6 +183,11 @@ std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSe
   if (coarse) lights.lights = std::min(lights.lights, std::max(lights.lights / kCoarseShare, kFewestCoarse));
   job->now = pose_lights(*lamp.scene, lights, lamp.wanted);
   job->baked = pose_lights(*lamp.scene, lights, {});
+  const Mat4 pack_from_lamp(pack_from_object(lamp.wanted));
+  for (const std::uint32_t e : pack_.light_groups[group].emitters) {
+    job->emitters.push_back(emitters_[e]);
+    for (Vec3& corner : job->emitters.back().corners) corner = Vec3(pack_from_lamp * Vec4(corner, 1));
+  }
   job->report.lamp = pack_.light_groups[group].name;
   const Vec3 at(pack_from_object(lamp.wanted) * DVec4(shape_of_lamp(pack_, pack_.light_groups[group]).centre, 1));
   job->report.outside = at != glm::clamp(at, least_ - kSlack, most_ + kSlack);
@@ -171,7 +198,7 @@ std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSe
 bool LiveLamps::finish(Job& job) {
   if (job.stop || !job.status) return false;
   Lamp& lamp = *lamps_[job.group];
-  lamp.added = std::move(job.added);
+  lamp.added = std::move(job.added), lamp.views = std::move(job.views);
   lamp.told = job.pose;
   lamp.whole = !job.coarse && !lamp.outdated && job.settings == settings_;
   lamp.stale = 0;
@@ -190,12 +217,12 @@ Result<bool> LiveLamps::place(std::span<const MoverPose> poses, const LiveSettin
     if (other_settings) lamp->whole = false;
     if (is_rest(poses[group])) {
       changed = changed || !lamp->added.empty();
-      lamp->added.clear();
+      lamp->added.clear(), lamp->views.clear();
       if (!job_ || job_->lamp != lamp) lamp->bounces.reset();  // many lamps may have been moved once
       lamp->told = poses[group], lamp->whole = true;
     } else if (!settings.in_background && (lamp->told != lamp->wanted || !lamp->whole)) {
       const auto job = begin(group, settings, false);
-      job->run(images_);
+      job->run(images_, pack_.reflectors, alphas_);
       ORIEL_TRY_VOID(job->status);
       changed = finish(*job) || changed;
     }
@@ -233,8 +260,15 @@ Result<bool> LiveLamps::step_in_background(const LiveSettings& settings) {
   if (!next) return changed;
   const bool coarse = lamps_[*next]->told != lamps_[*next]->wanted;
   job_ = begin(*next, settings, coarse);
-  job_->done = std::async(std::launch::async, [job = job_.get(), this] { job->run(images_); });
+  job_->done =
+      std::async(std::launch::async, [job = job_.get(), this] { job->run(images_, pack_.reflectors, alphas_); });
   return changed;
+}
+
+std::span<const EmitterView> LiveLamps::views(std::size_t group) const {
+  const auto lamp = lamps_.find(group);
+  if (lamp == lamps_.end() || lamp->second->told != lamp->second->wanted) return {};
+  return lamp->second->views;
 }
 
 bool LiveLamps::ready() const {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "formats/pack/pack.h"
+#include "formats/query/emitter_views.h"
 #include "formats/query/live_sums.h"
 #include "formats/query/page_points.h"
 #include "player/images/image_source.h"
@@ -47,6 +48,9 @@ class LiveLamps {
   bool ready() const;
   // What is added to pages where each group's lamps shine so many times as they were baked; null: nothing.
   std::shared_ptr<const PageChanges> changes(std::span<const Vec3> factors) const;
+  // Which planar reflectors show a group's lamp in closed form, and what of it they see, polygons by LightGroup's
+  // emitters. Of a lamp that was moved, and of none before all of its light is there.
+  std::span<const EmitterView> views(std::size_t group) const;
   // Of lamps whose light is all there, each once.
   std::vector<LiveReport> take_reports() { return std::exchange(reports_, {}); }
 
@@ -61,8 +65,10 @@ class LiveLamps {
 
   const Pack& pack_;
   const ImageSource& images_;
-  std::vector<Vec3> emission_;                          // by material
-  std::vector<BrightLight> lights_;                     // of the light field
+  std::vector<Vec3> emission_;       // by material
+  std::vector<BrightLight> lights_;  // of the light field
+  std::vector<Emitter> emitters_;
+  std::vector<float> alphas_;                           // of lobes, by reflector
   Vec3 least_, most_;                                   // of all that was baked
   std::map<std::size_t, std::unique_ptr<Lamp>> lamps_;  // that were ever moved, by group
   LiveSettings settings_;

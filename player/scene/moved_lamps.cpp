@@ -1,4 +1,5 @@
 // Lamps that shine otherwise than they were baked, or from elsewhere.
+#include <algorithm>
 #include <atomic>
 
 #include "player/scene/gpu_scene.h"
@@ -17,6 +18,10 @@ void place_part(const Mesh& baked, const MeshPart& part, const Mat4& pose, std::
   }
 }
 
+bool contains(const std::vector<std::uint32_t>& list, std::uint32_t wanted) {
+  return std::ranges::find(list, wanted) != list.end();
+}
+
 }  // namespace
 
 std::uint64_t next_scene_serial() {
@@ -30,10 +35,8 @@ bool GpuScene::has_live_news() const {
   return live_->ready() || images_->has_light_news();
 }
 
-std::vector<std::string> GpuScene::take_live_news() {
-  std::vector<std::string> news;
-  for (const LiveReport& report : live_->take_reports()) news.push_back(text_of(report));
-  return news;
+std::vector<LiveReport> GpuScene::take_live_reports() {
+  return live_->take_reports();
 }
 
 Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverPose> poses, const LiveSettings& live) {
@@ -54,9 +57,41 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
   baked_.shine(lights_, pack_);
   if (places != lamps_) move_lamps(places);
   bright_lights_ = placed_lights(pack_, lamps_);
-  for (GpuReflector& r : reflectors_)
-    r.emitters = upload_emitters(pack_, pack_.reflectors[r.index], r.reflector_from_pack, r.size);
+  for (GpuReflector& r : reflectors_) list_emitters(r);
   return images_->set_lights(lights_, factors_of_maps(), live_->changes(lights_));
+}
+
+// Those of lamps that have moved where they are seen from now, once that is known; until then maps and images have
+// them.
+void GpuScene::list_emitters(GpuReflector& reflector) const {
+  const Reflector& baked = pack_.reflectors[reflector.index];
+  ListedEmitters listed = listed_by(baked);
+  std::vector<std::uint8_t> visibility;
+  reflector.listed.clear();
+  const auto add = [&](std::uint32_t emitter, std::span<const std::uint8_t> nodes) {
+    reflector.listed.push_back(emitter);
+    visibility.insert(visibility.end(), nodes.begin(), nodes.end());
+  };
+  const auto has_moved = [&](std::uint32_t emitter) {
+    for (std::size_t g = 0; g < lamps_.size(); ++g)
+      if (!is_rest(lamps_[g]) && contains(pack_.light_groups[g].emitters, emitter)) return true;
+    return false;
+  };
+  const std::size_t nodes = std::size_t{baked.visibility_x} * baked.visibility_y;
+  for (std::size_t k = 0; k < baked.emitters.size(); ++k)
+    if (!has_moved(baked.emitters[k])) add(baked.emitters[k], listed.visibility.subspan(k * nodes, nodes));
+  for (std::size_t g = 0; g < lamps_.size(); ++g)
+    for (const EmitterView& view : live_->views(g)) {
+      if (view.reflector != reflector.index) continue;
+      if (reflector.listed.size() + view.polygons.size() > kMaxReflectorEmitters) continue;
+      listed.visibility_x = view.x, listed.visibility_y = view.y;
+      const std::span<const std::uint8_t> seen = view.visibility;
+      const std::size_t each = seen.size() / view.polygons.size();
+      for (std::size_t p = 0; p < view.polygons.size(); ++p)
+        add(pack_.light_groups[g].emitters[view.polygons[p]], seen.subspan(p * each, each));
+    }
+  listed.emitters = reflector.listed, listed.visibility = visibility;
+  reflector.emitters = upload_emitters(pack_, listed, reflector.reflector_from_pack, reflector.size);
 }
 
 // Lamps that have moved do not shine where maps show them.
@@ -68,10 +103,15 @@ MapFactors GpuScene::factors_of_maps() const {
   for (std::size_t g = 0; g < pack_.light_groups.size(); ++g)
     for (const std::uint32_t m : pack_.light_groups[g].materials)
       out.materials[m] = is_rest(lamps_[g]) ? lights_[g] : Vec3(0);
+  const auto that_list = [&](const std::vector<std::uint32_t>& emitters) {
+    std::vector<std::uint32_t> reflectors;
+    for (const GpuReflector& r : reflectors_)
+      if (std::ranges::find_first_of(r.listed, emitters) != r.listed.end()) reflectors.push_back(r.index);
+    return reflectors;
+  };
   for (std::size_t g = 0; g < pack_.light_groups.size(); ++g)
     if (const LightGroup& group = pack_.light_groups[g]; !is_rest(lamps_[g]))
-      out.moved.push_back(
-          std::make_shared<const MovedLamp>(pack_, group, shape_of_lamp(pack_, group).parts, lamps_[g]));
+      out.moved.push_back(std::make_shared<const MovedLamp>(pack_, group, lamps_[g], that_list(group.emitters)));
   if (!out.moved.empty()) out.geometry = geometry_serial_;
   for (int c = 0; c < 3; ++c)
     if (baked_.sky()[c] > 0) out.sky[c] = pack_.sky[c] / baked_.sky()[c];

@@ -152,9 +152,9 @@ class Loop {
 
   Status draw(int width, int height, float dt_s) {
     session_.frame.timed = numbers_are_due();  // only that one: timing waits for the device
-    ORIEL_TRY(session_.frame.poses,
-              poses_at(scene_->pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
-    ORIEL_TRY(session_.frame.lamps, lamps_at(scene_->pack(), session_.moves));
+    const double now_s = arguments_.time_s + seconds_since(start_);
+    ORIEL_TRY(session_.frame.poses, poses_at(scene_->pack(), session_.moves, now_s));
+    ORIEL_TRY(session_.frame.lamps, lamps_at(scene_->pack(), session_.moves, now_s));
     view_ = view_of(width, height);
     load_images();
     if (scene_->has_live_news() || renderer_.has_news()) paced_.redraw();
@@ -164,7 +164,7 @@ class Loop {
       const View view = view_of(paced_.size().x, paced_.size().y);
       ORIEL_TRY(meter_.stats, renderer_.render(*scene_, view, paced_.options()));
       ORIEL_TRY(metered_, renderer_.meter());
-      for (const std::string& news : scene_->take_live_news()) say(news);
+      for (const LiveReport& report : scene_->take_live_reports()) say(text_of(report));
     }
     meter_.loading = scene_->images().state();  // with what the frame wanted
     adapt_exposure(metered_, dt_s, session_);
@@ -265,7 +265,7 @@ class Loop {
     if (!scene) return say("not loaded again: " + scene.error().text());
     auto poses = poses_at((*scene)->pack(), session_.moves, 0);
     if (!poses) return say("not loaded again: " + poses.error().text());
-    const auto lamps = lamps_at((*scene)->pack(), session_.moves);
+    const auto lamps = lamps_at((*scene)->pack(), session_.moves, 0);
     if (!lamps) return say("not loaded again: " + lamps.error().text());
     if (beside_) {
       auto other = Other::open(arguments_.other, device_, {false, arguments_.gpu_memory});

@@ -64,16 +64,18 @@ vec3 from_lobe(vec4 inverse, vec3 w) {
   return vec3((w.x - inverse.y * w.z) / determinant, w.y / inverse.z, (inverse.x * w.z - inverse.w * w.x) / determinant);
 }
 
-// The same of a lobe that is one direction: 1 where a ray along it meets the polygon's bright side, -1 the other, 0 none.
-float polygon_met(vec3 v[4], vec3 direction) {
-  float least = 0.0, most = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    float side = dot(cross(v[i], v[i == 3 ? 0 : i + 1]), direction);
-    least = min(least, side);
-    most = max(most, side);
-  }
+// The same of a lobe that is one direction, over a square of that angle about it: the share of the square that the polygon covers,
+// exact for a rectangle along it; negative where it is the polygon's other side. The angle may be 0: all or nothing.
+float polygon_share(vec3 v[4], vec3 direction, float angle) {
   vec3 normal = cross(v[1] - v[0], v[2] - v[0]);
-  bool ahead = dot(normal, v[0]) * dot(normal, direction) > 0.0;
-  if (!ahead || least * most < 0.0) return 0.0;
-  return most > 0.0 ? -1.0 : 1.0;
+  float facing = dot(normal, v[0]);
+  if (facing * dot(normal, direction) <= 0.0) return 0.0;
+  float inside[4];  // sine of the angle from each edge to the direction, over the square's, within half of it
+  for (int i = 0; i < 4; ++i) {
+    vec3 edge = cross(v[i], v[i == 3 ? 0 : i + 1]);
+    float size = length(edge), side = dot(edge, direction) * (facing < 0.0 ? -1.0 : 1.0);
+    inside[i] = size > 0.0 ? clamp(side / max(size * angle, 1e-30), -0.5, 0.5) : 0.5;  // a triangle's last edge has no length
+  }
+  float share = max(inside[0] + inside[2], 0.0) * max(inside[1] + inside[3], 0.0);
+  return facing > 0.0 ? -share : share;
 }

@@ -81,9 +81,9 @@ TEST_F(LampsTest, WhereNothingMovedFramesAreTheBakesToTheBit) {
     return renderer_->read_light();
   };
   EXPECT_NE(render({.lamps = {shifted({1, 0, 0}), {}}}), baked.rgb);
-  EXPECT_EQ((*scene)->take_live_news().size(), 1u);
+  EXPECT_EQ((*scene)->take_live_reports().size(), 1u);
   EXPECT_EQ(render({}), baked.rgb);  // and back
-  EXPECT_TRUE((*scene)->take_live_news().empty());
+  EXPECT_TRUE((*scene)->take_live_reports().empty());
 }
 
 TEST_F(LampsTest, DirectLightIsTheClosedFormInEachMode) {
@@ -176,7 +176,7 @@ TEST(Lamps, PointLightsGoAlong) {
   pack.light_field.lights = {spot, spot};
   pack.light_field.lights[1].kind = BrightLightKind::kDirectional;
   pack.light_groups[0].bright_lights = {0, 1};
-  const auto poses = lamps_at(pack, std::vector<MoverMove>{*parse_move("lamp=0,3,0,90")});
+  const auto poses = lamps_at(pack, std::vector<MoverMove>{*parse_move("lamp=0,3,0,90")}, 0);
   ASSERT_TRUE(poses);
   const std::vector<BrightLight> placed = placed_lights(pack, *poses);
   const Mat4 pose(pack_from_object((*poses)[0]));
@@ -191,16 +191,33 @@ TEST(Lamps, MovesPutTheirMiddleThere) {
   pack.mesh.origin = DVec3(100, 0, 0);
   const auto move = parse_move("lamp=101,2.5,0,90");
   ASSERT_TRUE(move);
-  const auto poses = lamps_at(pack, std::vector<MoverMove>{*move});
+  const auto poses = lamps_at(pack, std::vector<MoverMove>{*move}, 0);
   ASSERT_TRUE(poses);
   ASSERT_EQ(poses->size(), 2u);
   const Vec3 corner(pack_from_object((*poses)[0]) * DVec4(0.5, 2, 0.5, 1));
   EXPECT_LT(glm::distance(corner, Vec3(1.5f, 2.5f, -0.5f)), 1e-5f);
   EXPECT_TRUE(is_rest((*poses)[1]));
-  EXPECT_TRUE(lamps_at(pack, {})->empty());
-  const auto home = lamps_at(pack, std::vector<MoverMove>{*parse_move("lamp=100,2,0")});
+  EXPECT_TRUE(lamps_at(pack, {}, 0)->empty());
+  const auto home = lamps_at(pack, std::vector<MoverMove>{*parse_move("lamp=100,2,0")}, 0);
   ASSERT_TRUE(home);
   EXPECT_TRUE(is_rest((*home)[0]));
+}
+
+TEST(Lamps, GoAsTheirAnimationHasThem) {
+  Pack pack = lit_floor();
+  LightGroup& lamp = pack.light_groups[0];
+  lamp.rest = {{1, 2, 0}, {0, 0, 0, 1}};
+  lamp.keys = {{0, lamp.rest}, {1, {{1, 4, 0}, {0, 1, 0, 0}}}, {3, {{1, 4, 0}, {0, 1, 0, 0}}}};
+  EXPECT_TRUE(lamps_at(pack, {}, 0)->empty()) << "at rest, to the bit";
+  const auto poses = lamps_at(pack, {}, 2);  // two metres up and half a turn about the node's origin
+  ASSERT_TRUE(poses);
+  ASSERT_EQ(poses->size(), 2u);
+  const Vec3 corner(pack_from_object((*poses)[0]) * DVec4(0.5, 2, 0.5, 1));
+  EXPECT_LT(glm::distance(corner, Vec3(1.5f, 4, -0.5f)), 1e-5f);
+  const auto moved = lamps_at(pack, std::vector<MoverMove>{*parse_move("lamp=0,3,0")}, 2);
+  ASSERT_TRUE(moved);
+  EXPECT_LT(glm::distance(Vec3(pack_from_object((*moved)[0]) * DVec4(0, 2, 0, 1)), Vec3(0, 3, 0)), 1e-5f)
+      << "who moves it says where it is";
 }
 
 TEST(Lamps, NamesThatCannotMoveAreTold) {
@@ -209,7 +226,7 @@ TEST(Lamps, NamesThatCannotMoveAreTold) {
     const std::vector<MoverMove> moves{*parse_move(text)};
     const auto movers = poses_at(pack, moves, 0);
     if (!movers) return movers.error().text();
-    const auto lamps = lamps_at(pack, moves);
+    const auto lamps = lamps_at(pack, moves, 0);
     return lamps ? std::string() : lamps.error().text();
   };
   EXPECT_EQ(error_of("lamp=0,0,0"), "");

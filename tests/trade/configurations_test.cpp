@@ -28,7 +28,7 @@ TEST(Configurations, WithoutReflectorsAndMoversVaryTheLightAlone) {
   SceneFacts bare;
   bare.cameras = {"0"};
   for (const bool quick : {true, false}) {
-    const TradePlan plan = plan_trade(bare, 0.1, quick);
+    const TradePlan plan = plan_trade(bare, 0.1, quick, "");
     EXPECT_THAT(knobs(plan),
                 ElementsAre("default", "error", "no bake", "reference estimator", "reference paths", "texel"));
     for (const Configuration& c : plan.configurations) {
@@ -41,7 +41,7 @@ TEST(Configurations, WithoutReflectorsAndMoversVaryTheLightAlone) {
 }
 
 TEST(Configurations, OfASceneWithEverythingVaryEveryKnob) {
-  const TradePlan plan = plan_trade(everything(), 0.1, false);
+  const TradePlan plan = plan_trade(everything(), 0.1, false, "");
   EXPECT_THAT(plan.skipped, IsEmpty());
   for (const char* knob : {"reflections", "views", "maps", "map resolution", "blur", "kernel", "fresnel", "select",
                            "sh bands", "transfer", "mover lights", "shade", "as published"})
@@ -56,7 +56,7 @@ TEST(Configurations, OfASceneWithEverythingVaryEveryKnob) {
 
 TEST(Configurations, DifferFromTheDefaultAndFromOneAnother) {
   for (const bool quick : {true, false}) {
-    const TradePlan plan = plan_trade(everything(), 0.1, quick);
+    const TradePlan plan = plan_trade(everything(), 0.1, quick, "");
     EXPECT_EQ(plan.configurations[0].knob, "default");
     std::set<std::string> names;
     std::set<std::tuple<Settings, Settings, Settings, unsigned>> settings;
@@ -66,31 +66,31 @@ TEST(Configurations, DifferFromTheDefaultAndFromOneAnother) {
       EXPECT_FALSE(c.bake.contains("--samples") && c.bake.contains("--error")) << c.name();
     }
   }
-  EXPECT_LT(plan_trade(everything(), 0.1, true).configurations.size(),
-            plan_trade(everything(), 0.1, false).configurations.size());
+  EXPECT_LT(plan_trade(everything(), 0.1, true, "").configurations.size(),
+            plan_trade(everything(), 0.1, false, "").configurations.size());
 }
 
 TEST(Configurations, OfMirrorsOrCurvesAloneLeaveOutWhatTheyDoNotHave) {
   SceneFacts mirrors = everything();
   mirrors.glossy = false;
-  const TradePlan plan = plan_trade(mirrors, 0.1, false);
+  const TradePlan plan = plan_trade(mirrors, 0.1, false, "");
   EXPECT_THAT(knobs(plan), Not(Contains("blur")));
   for (const Configuration& c : plan.configurations) EXPECT_FALSE(c.play.contains("--blur")) << c.name();
   SceneFacts curves = everything();
   curves.planar = false;
-  EXPECT_THAT(knobs(plan_trade(curves, 0.1, false)), Not(Contains("views")));
-  EXPECT_THAT(knobs(plan_trade(curves, 0.1, false)), Contains("fresnel"));
+  EXPECT_THAT(knobs(plan_trade(curves, 0.1, false, "")), Not(Contains("views")));
+  EXPECT_THAT(knobs(plan_trade(curves, 0.1, false, "")), Contains("fresnel"));
 }
 
 // 100 m² are 2500 texels of 20 cm.
 TEST(Configurations, SmallScenesHaveBetterReferences) {
   SceneFacts facts = everything();
-  EXPECT_EQ(plan_trade(facts, 0.1, true).reference.at("--samples"), "16384");
+  EXPECT_EQ(plan_trade(facts, 0.1, true, "").reference.at("--samples"), "16384");
   facts.area_m2 = 1300;
-  EXPECT_EQ(plan_trade(facts, 0.1, true).reference.at("--samples"), "1024");
+  EXPECT_EQ(plan_trade(facts, 0.1, true, "").reference.at("--samples"), "1024");
   for (const double area : {0.0, 1e9}) {
     facts.area_m2 = area;
-    const int samples = std::stoi(plan_trade(facts, 0.1, false).reference.at("--samples"));
+    const int samples = std::stoi(plan_trade(facts, 0.1, false, "").reference.at("--samples"));
     EXPECT_EQ(samples, area == 0 ? 16384 : 512);
   }
 }

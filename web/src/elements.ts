@@ -2,7 +2,7 @@
 import { halfToFloat } from './bytes';
 import type { ByteReader } from './bytes';
 import type {
-  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, Day, CurvedReflector, Surround, EmissionTexture } from './types';
+  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, Day, CurvedReflector, Surround, EmissionTexture, Mover, Pose } from './types';
 import type { Vec3 } from './vec';
 
 export const mostGroups = 64;
@@ -187,15 +187,26 @@ export function readGrid(r: ByteReader): WalkGrid {
   return { lower, cell, eyeHeight, width, height, walkable: r.planes(width * height, 1), floor: r.planesF32(width * height) };
 }
 
+/** Of movers and of lamps. */
+export function readMotion(r: ByteReader, name: string): Pick<Mover, 'rest' | 'keys'> {
+  const pose = (): Pose => ({ position: vec3(r), rotation: r.floats(4) });
+  const rest = pose(), keys = list(r, r.count(32), () => ({ time: r.f32(), pose: pose() }));
+  keys.forEach((k, i) => { if (i > 0 && k.time < keys[i - 1]!.time) r.fail(`found keys of '${name}' whose times fall`); });
+  return { rest, keys };
+}
+
 export function readGroup(r: ByteReader): LightGroup {
   const shares = (): Float32Array => Float32Array.from(r.floats(3 * r.count(12))), indices = (): Uint32Array => r.u32s(r.count(4));
   const group = {
     name: r.text(), lamps: list(r, r.count(4), () => r.text()), value: r.f32(), color: vec3(r), ownColor: vec3(r),
     materials: indices(), emitters: indices(), brightLights: indices(), sky: r.choice(1, 'sky flag') > 0,
   };
-  for (let i = 0; i < 3; ++i) r.choice(0, 'reserved byte');
+  const moves = r.choice(1, 'motion flag') > 0;
+  for (let i = 0; i < 2; ++i) r.choice(0, 'reserved byte');
   if (!(group.value >= 0) || [...group.color, ...group.ownColor].some((c) => c < 0)) r.fail(`found negative light in group '${group.name}'`);
-  return { ...group, reflectors: shares(), surrounds: shares(), probes: shares() };
+  const whole = { ...group, reflectors: shares(), surrounds: shares(), probes: shares() };
+  if (moves) readMotion(r, group.name);  // lamps stand still here
+  return whole;
 }
 
 export function readDay(r: ByteReader): Day {

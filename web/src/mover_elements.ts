@@ -1,12 +1,10 @@
 // Movers and the light field that they move through, byte by byte (docs/format.md).
 import { halfToFloat } from './bytes';
-import { exponent, list, readMesh, vec3 } from './elements';
+import { exponent, list, readMesh, readMotion, vec3 } from './elements';
 import type { ByteReader } from './bytes';
-import type { BrightLight, LightField, Mover, Pose, Transfer } from './types';
+import type { BrightLight, LightField, Mover, Transfer } from './types';
 
 const kMostLights = 64;
-
-const readPose = (r: ByteReader): Pose => ({ position: vec3(r), rotation: r.floats(4) });
 
 function readTransfer(r: ByteReader, vertices: number): Transfer {
   const bands = r.u16(), channels = r.u16(), clusters = r.u16(), components = r.u16();
@@ -20,10 +18,8 @@ function readTransfer(r: ByteReader, vertices: number): Transfer {
 }
 
 export function readMover(r: ByteReader): Mover {
-  const name = r.text(), rest = readPose(r), keys = list(r, r.count(32), () => ({ time: r.f32(), pose: readPose(r) }));
-  keys.forEach((k, i) => { if (i > 0 && k.time < keys[i - 1]!.time) r.fail(`found keys of '${name}' whose times fall`); });
-  const mesh = readMesh(r);
-  return { name, rest, keys, mesh, transfer: readTransfer(r, mesh.positions.length / 3) };
+  const name = r.text(), motion = readMotion(r, name), mesh = readMesh(r);
+  return { name, ...motion, mesh, transfer: readTransfer(r, mesh.positions.length / 3) };
 }
 
 function readBright(r: ByteReader): BrightLight {

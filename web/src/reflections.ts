@@ -32,6 +32,7 @@ export class Reflections {
   private readonly compose: Program;
   private readonly convolve: Program;
   private readonly emitters: Program;
+  private readonly glints: Program;
   private readonly pull: Program;
   private readonly blur: Program;
   readonly curved: CurvedReflections;
@@ -41,11 +42,12 @@ export class Reflections {
     const { gl } = device;
     this.mask = Program.make(gl, 'reflector_mask'), this.compose = Program.make(gl, 'reflector_compose');
     this.convolve = Program.make(gl, 'reflector_convolve'), this.emitters = Program.make(gl, 'reflector_emitters');
+    this.glints = Program.make(gl, 'reflector_emitters_sharp');
     this.curved = new CurvedReflections(device, renderer);
     this.pull = Program.make(gl, 'screen_pull'), this.blur = Program.make(gl, 'screen_convolve');
   }
 
-  get programs(): Program[] { return [this.mask, this.compose, this.convolve, this.emitters, this.pull, this.blur]; }
+  get programs(): Program[] { return [this.mask, this.compose, this.convolve, this.emitters, this.glints, this.pull, this.blur]; }
 
   /** Marks the reflectors that are seen in the target, whose depth is there. */
   drawMasks(scene: GpuScene, target: Target, options: FrameOptions): Marked[] {
@@ -285,20 +287,20 @@ export class Reflections {
 
   private drawEmitters(scene: GpuScene, target: Target, marked: Marked, kernel: GpuKernel): void {
     const { gl } = this.device, r = marked.reflector, e = r.emitters;
-    if (!e || !kernel.lobes) return;
-    const shape = scene.data.reflectors[r.index]!, program = this.emitters;
+    if (!e) return;
+    const shape = scene.data.reflectors[r.index]!, program = kernel.lobes ? this.emitters : this.glints;
     program.use();
     bind(gl, 'u_polygons', e.polygons);
     bind(gl, 'u_visibility', e.visibility);
     bind(gl, 'u_seen', e.seen);
-    bind(gl, 'u_lobes', kernel.lobes);
+    if (kernel.lobes) bind(gl, 'u_lobes', kernel.lobes);
     program.set('u_cells', [e.cellsX, e.cellsY]);
     program.set('u_lower', shape.lower.map((x) => x / r.size));
     program.set('u_upper', shape.upper.map((x) => x / r.size));
     const m = r.reflectorFromPack.slice();
     for (let c = 0; c < 4; ++c) for (let row = 0; row < 3; ++row) m[4 * c + row]! /= r.size;
     program.set('u_emitters_from_pack', m);
-    program.set('u_lobe_rows', 33);
+    if (kernel.lobes) program.set('u_lobe_rows', 33);
     this.setReflector(program, scene, target, r);
     apply(gl, { ...this.where(target, marked, false), blend: 'add', alpha: false });
     scene.draw(r);

@@ -32,6 +32,8 @@ import pass_reflector_convolve_frag from '../../shaders/passes/reflector_convolv
 import pass_reflector_convolve_vert from '../../shaders/passes/reflector_convolve.vert';
 import pass_reflector_emitters_frag from '../../shaders/passes/reflector_emitters.frag';
 import pass_reflector_emitters_glsl from '../../shaders/passes/reflector_emitters.glsl';
+import pass_reflector_emitters_sharp_frag from '../../shaders/passes/reflector_emitters_sharp.frag';
+import pass_reflector_emitters_sharp_vert from '../../shaders/passes/reflector_emitters_sharp.vert';
 import pass_reflector_emitters_vert from '../../shaders/passes/reflector_emitters.vert';
 import pass_reflector_mask_frag from '../../shaders/passes/reflector_mask.frag';
 import pass_reflector_mask_vert from '../../shaders/passes/reflector_mask.vert';
@@ -86,6 +88,8 @@ const files: Record<string, string> = {
   'passes/reflector_convolve.vert': pass_reflector_convolve_vert,
   'passes/reflector_emitters.frag': pass_reflector_emitters_frag,
   'passes/reflector_emitters.glsl': pass_reflector_emitters_glsl,
+  'passes/reflector_emitters_sharp.frag': pass_reflector_emitters_sharp_frag,
+  'passes/reflector_emitters_sharp.vert': pass_reflector_emitters_sharp_vert,
   'passes/reflector_emitters.vert': pass_reflector_emitters_vert,
   'passes/reflector_mask.frag': pass_reflector_mask_frag,
   'passes/reflector_mask.vert': pass_reflector_mask_vert,

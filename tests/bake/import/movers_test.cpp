@@ -92,6 +92,82 @@ TEST(Movers, LightsAndEmittersStandStill) {
   EXPECT_TRUE(r.scene().movers.empty());
 }
 
+// The wall is a bracket that shines not, the leaf its shade; a bulb and a sun hang on it.
+Gltf with_swinging_lamp() {
+  Gltf g = with_door();
+  g.material()["emissiveFactor"] = {1, 1, 1};
+  g.doc["meshes"][1]["primitives"][0]["material"] = 0;
+  g.use("KHR_lights_punctual");
+  g.doc["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([{"type":"point"},{"type":"directional"}])");
+  json& nodes = g.doc["nodes"];
+  nodes.push_back({{"name", "bulb"}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  nodes.push_back({{"name", "sun"}, {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+  nodes[2]["children"] = {1, 3, 4};
+  return g;
+}
+
+TEST(Movers, LampsThatTheFileAnimatesHaveItsMotion) {
+  Gltf g = with_swinging_lamp();
+  animate(g, 2, "translation", {0, 1}, {0, 0, 0, 1, 0, 0}, "LINEAR");
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  const Scene& scene = r.scene();
+  EXPECT_EQ(movers_of(scene), (Movers{-1, -1})) << "their light is baked where they rest";
+  EXPECT_TRUE(scene.movers.empty());
+  ASSERT_EQ(scene.lamp_motions.size(), 1u);
+  EXPECT_EQ(scene.lamp_motions[0].name, "door");
+  EXPECT_EQ(scene.lamp_motions[0].keys.size(), 2u);
+  EXPECT_EQ(scene.surfaces[0].motion, -1);
+  EXPECT_EQ(scene.surfaces[1].motion, 0);
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_EQ(scene.lights[0].motion, 0);
+  EXPECT_EQ(scene.lights[1].motion, -1) << "a sun is no lamp that moves";
+  EXPECT_TRUE(r.warned("carries the light \"sun\""));
+}
+
+TEST(Movers, WhatDoesNotShineOfAnAnimatedLampGoesAlong) {
+  Gltf g = with_swinging_lamp();
+  g.doc["nodes"][2]["children"].push_back(0);  // the wall as the lamp's arm
+  g.doc["scenes"][0]["nodes"] = {2};
+  animate(g, 2, "translation", {0, 1}, {0, 0, 0, 1, 0, 0}, "LINEAR");
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  ASSERT_EQ(r.scene().movers.size(), 1u);
+  EXPECT_EQ(r.scene().movers[0].keys.size(), 2u);
+  ASSERT_EQ(r.scene().lamp_motions.size(), 1u);
+  EXPECT_EQ(r.scene().lamp_motions[0].name, "door light") << "the body has the node's name";
+  for (const Surface& surface : r.scene().surfaces) {
+    EXPECT_EQ(surface.mover, surface.name == "wall" ? 0 : -1);
+    EXPECT_EQ(surface.motion, surface.name == "wall" ? -1 : 0);
+  }
+}
+
+TEST(Movers, LampsArePutElsewhereByTheirMiddle) {
+  Scene scene = import(with_swinging_lamp()).scene();
+  const Scene before = scene;
+  const std::vector<MoverMove> moves{{"leaf", DVec3(1, 2, 3), kPiD / 2}, {"bulb", DVec3(0, 5, 0), 0}};
+  ASSERT_TRUE(move_nodes(moves, scene));
+  Vec3 lower(1e9f), upper(-1e9f);
+  for (int c = 0; c < 3; ++c) {
+    const std::uint32_t leaf = scene.triangles[1][c], wall = scene.triangles[0][c];
+    EXPECT_EQ(scene.positions[wall], before.positions[wall]);
+    lower = glm::min(lower, scene.positions[leaf]), upper = glm::max(upper, scene.positions[leaf]);
+  }
+  EXPECT_LT(glm::distance(0.5f * (lower + upper), Vec3(DVec3(1, 2, 3) - scene.origin)), 1e-5f);
+  EXPECT_LT(glm::distance(scene.lights[0].position, Vec3(DVec3(0, 5, 0) - scene.origin)), 1e-5f);
+  EXPECT_GT(scene.upper.y, before.upper.y);
+  const auto refused = [&](const char* name) {
+    const std::vector<MoverMove> one{{name, DVec3(0), 0}};
+    return move_nodes(one, scene).error().text();
+  };
+  EXPECT_NE(refused("lea").find("found \"lea\", expected a mover or a lamp of the scene: \"leaf\""), std::string::npos)
+      << refused("lea");
+  Gltf animated = with_swinging_lamp();
+  animate(animated, 2, "translation", {0, 1}, {0, 0, 0, 1, 0, 0}, "LINEAR");
+  scene = import(animated).scene();
+  EXPECT_NE(refused("leaf").find("expected one that the file does not animate"), std::string::npos);
+}
+
 // Turned, scaled, mirrored, far from the origin: object space is rigid, and its vertices come back where they were.
 TEST(Movers, ComeBackWhereTheyWere) {
   for (const double mirror : {1.0, -1.0}) {
@@ -134,7 +210,8 @@ TEST(Movers, AreMovedWithTheirSurfaces) {
   Scene scene = r.scene();
   const MoverPose rest = scene.movers[0].rest;
   const MoverPose there = moved(rest, {"door", DVec3(3, 40, -2), kPiD / 2}, scene.origin);
-  move_mover(scene, 0, there);
+  const std::vector<MoverMove> away{{"door", DVec3(3, 40, -2), kPiD / 2}};
+  ASSERT_TRUE(move_nodes(away, scene));
   const DMat4 change = pack_from_object(there) * glm::inverse(pack_from_object(rest));
   for (int c = 0; c < 3; ++c) {
     const UVec3 wall = scene.triangles[0], door = scene.triangles[1];
@@ -143,7 +220,8 @@ TEST(Movers, AreMovedWithTheirSurfaces) {
     EXPECT_NEAR(glm::length(scene.positions[door[c]] - expected), 0, 1e-4);
   }
   EXPECT_GT(scene.upper.y, 30);
-  move_mover(scene, 0, rest);
+  const std::vector<MoverMove> back{{"door", DVec3(rest.position) + scene.origin, -kPiD / 2}};
+  ASSERT_TRUE(move_nodes(back, scene));
   for (std::size_t v = 0; v < scene.positions.size(); ++v)
     EXPECT_NEAR(glm::length(scene.positions[v] - r.scene().positions[v]), 0, 1e-4);
 }

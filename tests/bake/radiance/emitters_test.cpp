@@ -146,6 +146,28 @@ TEST(Emitters, PointsAndSpotsAreSomeOfThem) {
   EXPECT_EQ(light_at(1, {-0.5f, 0}), 0) << "beyond the cone";
 }
 
+// A mirror's image has all that has a surface, and neither sun nor point.
+TEST(Emitters, OfAMirrorAreWhatHasNoSurface) {
+  LampRoom room(0);
+  Light sun, point;
+  sun.type = LightType::kDirectional, sun.direction = {0, -1, 0}, sun.intensity = Vec3(1000);
+  sun.angular_radius_rad = 0.00465f;
+  point.position = {-1, 1.5f, 0.3f}, point.intensity = Vec3(100);
+  room.parts.scene().lights = {sun, point};
+  room.scene = room.parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  room.run(*accel, false);
+  ASSERT_EQ(room.emitters.size(), 2u);
+  EXPECT_EQ(room.reflectors[0].reflector.emitters.size(), 2u);
+  EXPECT_TRUE(room.reflectors[0].emitters.empty()) << "no triangles are dark in its image";
+  for (const Emitter& emitter : room.emitters)
+    EXPECT_NE(sun_of_corners(room.scene, emitter.corners) == 0, punctual_of_corners(room.scene, emitter.corners) == 1);
+  const std::size_t e = room.emitters[0].corners[0].y > 10 ? 0 : 1;  // the sun
+  EXPECT_EQ(room.visibility(e, {0, 0}), 0) << "under the lamp";
+  EXPECT_EQ(room.visibility(e, {1.5f, 0}), 1);
+}
+
 TEST(Emitters, AMirrorKeepsThem) {
   LampRoom room(0);
   room.scene = room.parts.finish();

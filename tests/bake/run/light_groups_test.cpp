@@ -78,6 +78,42 @@ TEST(LightGroups, HaveNamesOfTheirOwnBesideHours) {
   EXPECT_EQ(names(marked), (Names{"day 12:00", "day 12:00 lamp", kOtherLamps}));
 }
 
+TEST(LightGroups, AreOfLampsThatMoveTogether) {
+  std::vector<std::string> warnings;
+  Context context;
+  context.warn = [&](const Warning& warning) { warnings.push_back(warning.text); };
+  Scene scene = lit_scene();
+  scene.lamp_motions.push_back({"desk", {}, {{0, {}}, {1, {}}}});
+  scene.surfaces[3].motion = scene.lights[0].motion = 0;
+  Scene by_mesh = scene, off = scene, marked = scene;
+  ASSERT_TRUE(assign_light_groups({}, scene, context));
+  EXPECT_EQ(names(scene), (Names{"desk", kOtherLamps})) << "nothing is marked, but one moves";
+  EXPECT_EQ(scene.light_groups[0].motion, 0);
+  EXPECT_EQ(scene.light_groups[1].motion, -1);
+  by_mesh.surfaces[1].motion = 0;  // one of two panels
+  ASSERT_TRUE(assign_light_groups({LightGrouping::kAuto, {}, {}}, by_mesh, context));
+  EXPECT_EQ(names(by_mesh), (Names{"panel", "desk", "sky", "desk 2"}));
+  EXPECT_EQ(by_mesh.light_groups[0].motion, -1);
+  EXPECT_EQ(by_mesh.light_groups[1].motion, 0);
+  EXPECT_EQ(by_mesh.light_groups[3].motion, 0);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings[0].find("\"panel 1\" is animated: it leaves the group \"panel\""), std::string::npos)
+      << warnings[0];
+  for (int m = 1; m < 10; ++m) {  // ten lamps
+    marked.lamp_motions.push_back(marked.lamp_motions[0]);
+    marked.lights.push_back(marked.lights[0]);
+    marked.lights.back().motion = m, marked.lights.back().node_path = fmt::format("lamp {}", m);
+  }
+  ASSERT_TRUE(assign_light_groups({}, marked, context));
+  ASSERT_EQ(marked.light_groups.size(), kMostMotions + 1);
+  EXPECT_EQ(marked.light_groups[7].motion, 7);
+  EXPECT_EQ(marked.light_groups[8].motion, -1) << "the others, which do not go together";
+  EXPECT_NE(warnings.back().find("\"other lamps\" has lamps that are animated and others"), std::string::npos);
+  ASSERT_TRUE(assign_light_groups({LightGrouping::kOff, {}, {}}, off, context));
+  EXPECT_TRUE(off.light_groups.empty());
+  EXPECT_NE(warnings.back().find("1 lamps are animated: without light groups they stand still"), std::string::npos);
+}
+
 TEST(LightGroups, FollowPlacesAndLamps) {
   Context context;
   Scene by_place = lit_scene(), each = lit_scene(), off = lit_scene();

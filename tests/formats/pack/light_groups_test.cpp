@@ -15,6 +15,10 @@ TEST(Pack, LightGroupsComeBack) {
         std::tie(a.name, a.lamps, a.value, a.color, a.own_color, a.materials, a.emitters, a.bright_lights, a.sky),
         std::tie(b.name, b.lamps, b.value, b.color, b.own_color, b.materials, b.emitters, b.bright_lights, b.sky));
     EXPECT_EQ(std::tie(a.reflectors, a.surrounds, a.probes), std::tie(b.reflectors, b.surrounds, b.probes));
+    EXPECT_EQ(a.rest, b.rest);
+    ASSERT_EQ(a.keys.size(), b.keys.size());
+    for (std::size_t k = 0; k < a.keys.size(); ++k)
+      EXPECT_EQ(std::tie(a.keys[k].time_s, a.keys[k].pose), std::tie(b.keys[k].time_s, b.keys[k].pose));
   }
   ASSERT_EQ(out.page_groups.size(), 1u);
   const PageGroups &a = out.page_groups[0], &b = in.page_groups[0];
