@@ -99,7 +99,8 @@ class Sweep {
     for (const std::string& camera : trade_.facts.cameras) {
       const unsigned paths = trade_.plan.reference_paths;
       ORIEL_TRY(references_.emplace_back(), render(camera, paths, o_.seed + 1, ""));
-      if (!o_.move.empty()) ORIEL_TRY(moved_references_.emplace_back(), render(camera, paths, o_.seed + 1, o_.move));
+      if (o_.move.empty()) continue;
+      ORIEL_TRY(moved_references_.emplace_back(), render(camera, paths, o_.seed + 1, o_.move));
     }
     for (const Configuration& configuration : trade_.plan.configurations) {
       Row row{configuration, {}, {}, {}, {}};
@@ -158,8 +159,7 @@ class Sweep {
 
   Status measure_pack(Row& row) {
     const Configuration& c = row.configuration;
-    std::string reference;
-    if (!c.moved) ORIEL_TRY(reference, texel_reference(c.bake.at("--texel")));
+    ORIEL_TRY(const std::string reference, c.moved ? "" : texel_reference(c.bake.at("--texel")));
     const std::string key = bake_key(c.bake, o_.seed, reference);
     if (!units_.counting() && !c.moved && !fs::exists(pack(reference))) return {};  // no time for it
     ORIEL_TRY(row.measures,

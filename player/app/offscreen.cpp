@@ -21,6 +21,7 @@
 #include "player/output/picture.h"
 #include "player/output/video.h"
 #include "player/passes/frame.h"
+#include "player/scene/live_lamps.h"
 #include "player/session/session.h"
 #include "player/window/paced_frame.h"
 

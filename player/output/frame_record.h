@@ -13,8 +13,8 @@ struct FrameRecord {
   std::string camera;
   double ms = 0;  // of the whole frame
   FrameStats stats;
-  double live_s = 0;    // that the light of lamps took which had moved before the frame
   bool in_zone = true;  // the eye is where reflections were planned for
+  double live_s = 0;    // that the light of lamps took which had moved before the frame
 };
 
 // One line of counts, of the passes' times where they were taken, and a warning outside the zone.

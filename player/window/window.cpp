@@ -13,6 +13,7 @@
 #include "player/navigation/zone.h"
 #include "player/output/frame_record.h"
 #include "player/output/picture.h"
+#include "player/scene/live_lamps.h"
 #include "player/session/scene_name.h"
 #include "player/window/announce.h"
 #include "player/window/beside_view.h"
