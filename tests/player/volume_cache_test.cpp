@@ -60,6 +60,38 @@ TEST_F(VolumesKept, AreBuiltAnewForWhatMoved) {
   EXPECT_EQ(built(next(*scene, options)), (Built{0, 0, 0, 6})) << "points of lamps that have none";
 }
 
+// Of light straight on and by a mirror that moves, what the mirror has a part in is built anew.
+TEST_F(VolumesKept, AreBuiltAnewForAMirrorThatMoved) {
+  Pack pack = kept_scene();
+  Reflector reflector;
+  for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) reflector.indices.push_back(i);
+  pack.reflectors.push_back(reflector);
+  pack.reflectors[0].upper = Vec2(1);
+  const auto scene = std::move(*GpuScene::create(pack, device_));
+  const FrameOptions options = in_passes();
+  next(*scene, options);  // leaves a frame to draw into
+  FrameStats stats;
+  const View view = make_view(above_floor(0, 0), 32, 24, scene->bounds());
+  const FrameContext context{*scene, view, options, stats};
+  VolumeCache cache = std::move(*VolumeCache::create(device_.dialect));
+  const std::vector<LightSource> sources = sources_of(scene->bright_lights(), 1, 0);
+  std::vector<LightMirror> mirrors(1);
+  const auto drawn = [&](float wall) {
+    mirrors[0].plane = {0, 0, 1, wall};
+    stats.passes = {};
+    cache.begin(context, {}, mirrors);
+    for (const LightPath& path : {LightPath{0, {}}, LightPath{0, {0}}}) {
+      const std::vector<PathLeg> legs = legs_of(path, sources, mirrors);
+      for (std::size_t i = 0; i < legs.size(); ++i) cache.draw({path, i, legs[i]}, view, 0x3f, stats);
+    }
+    return built(stats.passes);
+  };
+  EXPECT_EQ(drawn(5), (Built{4, 0, 0, 2})) << "two objects; the first stretch is the light's own";
+  EXPECT_EQ(drawn(5), (Built{0, 0, 0, 6}));
+  EXPECT_EQ(drawn(4.5f), (Built{0, 2, 0, 4})) << "its image of the lamp has moved";
+  EXPECT_EQ(drawn(3), (Built{2, 1, 0, 3})) << "it cuts the floor, of which a part before it throws shadows";
+}
+
 // The mover's shadow follows it.
 TEST_F(VolumesKept, AreWhereTheMoverIs) {
   Pack pack = kept_scene();
