@@ -27,8 +27,9 @@ enum class Directional { kAuto, kOn, kOff };
 // Which viewpoints radiance maps have: those that show most to the eye region, or uniform hemispheres.
 enum class ViewScheme { kPlanned, kHemisphere };
 
-// How reflections are baked: as Oriel does, or as Bastos et al. 1999 published it, for comparison.
-enum class Method { kOriel, kBastos1999 };
+// How light is baked: as Oriel does, or for comparison as Bastos et al. 1999 published reflections, or Diefenbach and
+// Badler 1997 frames of many passes.
+enum class Method { kOriel, kBastos1999, kDiefenbach1997 };
 
 // Whether what is seen from where is found: where it is likely to pay, always, never.
 enum class VisibleSetsWanted { kAuto, kOn, kOff };

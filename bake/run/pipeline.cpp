@@ -10,6 +10,7 @@
 #include "bake/run/forecast.h"
 #include "bake/run/group_light.h"
 #include "bake/run/inputs.h"
+#include "bake/run/lamps.h"
 #include "bake/run/movers.h"
 #include "bake/run/prepare.h"
 #include "bake/run/report.h"
@@ -24,20 +25,9 @@
 namespace oriel {
 namespace {
 
-constexpr double kSlowPaths = 1.5;     // a ray of verification takes longer than a gathered one
 constexpr double kLightField = 0.4;    // of the time that texels' first light takes a thread: measured on few scenes
 constexpr double kLeastLight_s = 0.1;  // that a lightmap takes
 constexpr double kLedgerRays = 0.01;   // of the lightmap's
-
-// Whether refinement of the lightmap is to end: the user asks for it, or what is left is what later stages need.
-// `later`: seconds of these.
-std::function<bool()> refined_enough(const BakeOptions& options, const TimeBudget& budget, double later,
-                                     const Context& context) {
-  const double verifying = kSlowPaths * options.radiosity.verify;
-  return [=, &budget, &finish = context.finish, begun = budget.spent()] {
-    return finish || budget.left() <= later + verifying * (budget.spent() - begun);
-  };
-}
 
 // What a stage makes that the bake can do without: none where --time is over before, or the user wants to finish.
 template <class Stage>
@@ -93,6 +83,7 @@ class Bake {
     ORIEL_TRY_VOID(light_vertices());
     ORIEL_TRY_VOID(capture_reflections());
     ORIEL_TRY_VOID(make_light_field());
+    ORIEL_TRY_VOID(leave_lamps_to_passes());
     ORIEL_TRY_VOID(assemble());
     ORIEL_TRY_VOID(check());
     describe();
@@ -300,6 +291,13 @@ class Bake {
     ORIEL_TRY_VOID(timed_("probes", [&](std::uint64_t& rays) { return bake_light_field(task(), enough, rays); }));
     if (late) result_.omissions.emplace_back("light field: its last refinement is left out, the bake was to end");
     return {};
+  }
+
+  // What was captured shows all light; the lightmap keeps what lamps do not give at once.
+  Status leave_lamps_to_passes() {
+    if (options_.method != Method::kDiefenbach1997) return {};
+    pack().lightmaps = std::move(radiosity_.indirect);
+    return list_lamps(task(), result_.omissions);
   }
 
   Status assemble() {

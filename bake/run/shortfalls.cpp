@@ -5,7 +5,8 @@
 namespace oriel {
 namespace {
 
-constexpr double kWorse = 1.3;  // times the error that was stated, which is worth a warning
+constexpr double kSlowPaths = 1.5;  // a ray of verification takes longer than a gathered one
+constexpr double kWorse = 1.3;      // times the error that was stated, which is worth a warning
 
 void fall_short(const std::string& why, Context& context, std::vector<std::string>& shortfalls) {
   shortfalls.push_back(why);
@@ -72,6 +73,14 @@ void judge_stages(const BakeResult& result, Context& context, std::vector<std::s
   for (const auto* all : {&result.omissions, &result.warnings})
     for (const Warning& one : *all)
       if (one.kind == WarningKind::kTimeOver) shortfalls.push_back(one.text);
+}
+
+std::function<bool()> refined_enough(const BakeOptions& options, const TimeBudget& budget, double later,
+                                     const Context& context) {
+  const double verifying = kSlowPaths * options.radiosity.verify;
+  return [=, &budget, &finish = context.finish, begun = budget.spent()] {
+    return finish || budget.left() <= later + verifying * (budget.spent() - begun);
+  };
 }
 
 }  // namespace oriel

@@ -1,6 +1,8 @@
 // Whether a bake is all that was asked for.
 #pragma once
 
+#include <functional>
+
 #include <string>
 #include <vector>
 
@@ -19,5 +21,10 @@ void judge_time(const BakeOptions& options, const TimeBudget& budget, const std:
 // Stages that are not there for want of time, or since the user had enough: omissions and warnings of the kind
 // kTimeOver.
 void judge_stages(const BakeResult& result, Context& context, std::vector<std::string>& shortfalls);
+
+// Whether refinement of the lightmap is to end: the user asks for it, or what is left is what later stages need.
+// later: seconds of these. Holds budget and context.
+std::function<bool()> refined_enough(const BakeOptions& options, const TimeBudget& budget, double later,
+                                     const Context& context);
 
 }  // namespace oriel

@@ -98,6 +98,11 @@ Status BrightLights::choose(std::span<const Vec3> points, int strongest, Context
   return {};
 }
 
+std::size_t BrightLights::choose_all() {
+  set_list(std::vector<double>(candidates_.size(), 1));
+  return candidates_.size();
+}
+
 // Those with the most light, in the order of the scene.
 void BrightLights::set_list(const std::vector<double>& lux) {
   listed_.clear();

@@ -26,6 +26,9 @@ class BrightLights {
   // that shine most on all of them where they are more than kMaxBrightLights. Error kStopped.
   Status choose(std::span<const Vec3> points, int strongest, Context& context);
 
+  // Lists all that may be bright lights, or the first kMaxBrightLights of them; how many they are.
+  std::size_t choose_all();
+
   std::size_t size() const { return listed_.size(); }
   // Of the listed lights, in their order.
   std::vector<BrightLight> list() const;

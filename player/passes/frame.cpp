@@ -74,6 +74,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   std::unique_ptr<Renderer> renderer(new Renderer);
   renderer->device_ = device;
   renderer->glass_pass_ = GlassPass(device.dialect);
+  renderer->multi_pass_ = MultiPass(device.dialect);
   renderer->clock_ = PassClock(device.pass_timers);
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
   ORIEL_TRY(renderer->mover_pass_, MoverPass::create(device.dialect));
@@ -111,6 +112,15 @@ Result<std::optional<BrightChange>> Renderer::draw_change(const FrameContext& co
   return change;
 }
 
+// Before movers are drawn: the stencil has reflectors' marks.
+Status Renderer::add_lamps(const FrameContext& context, const LitBatches& lit) {
+  const auto draw = [&] { return multi_pass_.draw(context, LitImage::of(*frame_), lit); };
+  ORIEL_TRY_VOID(clock_.time(Pass::kLamps, draw));
+  frame_->drawn().bind();
+  glViewport(0, 0, context.view.width, context.view.height);
+  return {};
+}
+
 Status Renderer::draw_see_through(const FrameContext& context, const SceneWeights& weights) {
   if (context.scene.glass().empty()) return scene_pass_.draw_transparent(context, weights);
   ORIEL_TRY_VOID(glass_pass_.prepare(context, scene_pass_));
@@ -129,7 +139,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
   ORIEL_TRY_VOID(scene_pass_.prepare(scene, options));
-  const bool halves = options.halves && scene.fits_halves();
+  // Many passes add up, and light of lamps has no bound.
+  const bool halves = options.halves && !options.multi_pass.on && scene.fits_halves();
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples, halves));
   reflections_.use_halves(halves);
   FrameStats stats;
@@ -159,7 +170,9 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
   const std::vector<PlacedMover> movers = clock_.time(Pass::kMovers, [&] { return place_movers(scene, options); });
   if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(context, movers); });
   const std::vector<PlacedMover> mirrored = in_mirrors(scene, options);
-  const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored};
+  MultiPass* const lamps = options.multi_pass.on ? &multi_pass_ : nullptr;
+  if (lamps) ORIEL_TRY_VOID(clock_.time(Pass::kLamps, [&] { return lamps->begin(context, movers); }));
+  const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored, lamps};
   const ReflectionTarget target{&*frame_};
   ReflectionMarks marks;
   ORIEL_TRY(const std::vector<MarkedReflector> marked,
@@ -175,6 +188,7 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
     ORIEL_TRY(const auto change, draw_change(context, shown, movers));
     drew_movers_ = !movers.empty();
     clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(context, shown, weights, marks.reflective, change); });
+    if (lamps) ORIEL_TRY_VOID(add_lamps(context, {shown, false, marks.reflective, weights}));
     if (!movers.empty()) {
       clock_.time(Pass::kMovers, [&] {
         mover_pass_.draw(context, movers, {weights.diffuse, weights.undirected, weights.emission},

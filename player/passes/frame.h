@@ -9,6 +9,7 @@
 #include "player/movers/bright_pass.h"
 #include "player/passes/display_pass.h"
 #include "player/passes/glass_pass.h"
+#include "player/passes/multi_pass.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflection_renderer.h"
 #include "player/passes/scene_pass.h"
@@ -55,6 +56,8 @@ class Renderer {
   // What movers change of the light on what is seen, if anything.
   Result<std::optional<BrightChange>> draw_change(const FrameContext& context, std::span<const DrawBatch> shown,
                                                   std::span<const PlacedMover> movers);
+  // Light of lamps that the lightmap is without.
+  Status add_lamps(const FrameContext& context, const LitBatches& lit);
   // See-through surfaces and bodies of glass.
   Status draw_see_through(const FrameContext& context, const SceneWeights& weights);
 
@@ -62,6 +65,7 @@ class Renderer {
   ScenePass scene_pass_;
   MoverPass mover_pass_;
   BrightPass bright_pass_;
+  MultiPass multi_pass_;
   ReflectionRenderer reflections_;
   GlassPass glass_pass_;
   SurveyPass survey_pass_;

@@ -165,7 +165,7 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
   const bool blurs = lobe && options.show != Show::kM, even = lobe && options.blur == Blur::kConstant;
   const int reduction = even ? even_reduction(scene, reflector, view) : 1;
   const View drawn = reduction > 1 ? reduced_view(view, reduction) : view;
-  const ReflectionWork inner{{scene, drawn, options, stats}, work.scene_pass, work.mover_pass, work.movers};
+  const ReflectionWork inner{{scene, drawn, options, stats}, work.scene_pass, work.mover_pass, work.movers, work.lamps};
   ImageRect rect = choose_image(in_reduced_view(marked.screen, view, drawn, reduction),
                                 blurs && !even ? kernel.median : 0.0f, drawn, device_.texture_size, options.coarse);
   rect.reduction = reduction;
@@ -256,7 +256,7 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
   const View view = mirrored_view(scene, reflector, eyes, image.rect);
   FrameOptions whole = options;  // what is in it is shown with all stages
   whole.show = Show::kAll;
-  const ReflectionWork within{{scene, view, whole, stats}, work.scene_pass, work.mover_pass, work.movers};
+  const ReflectionWork within{{scene, view, whole, stats}, work.scene_pass, work.mover_pass, work.movers, work.lamps};
   const ReflectionTarget inside{nullptr, &image.target, target.mirrors + 1,
                                 target.reflectance * reflectance_of(pack, reflector.material),
                                 target.share * static_cast<float>(view.width) * static_cast<float>(view.height) /
@@ -269,6 +269,7 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
     ORIEL_TRY_VOID(draw_mirrors_in(within, inside, mirrored));
   } else {
     work.scene_pass.draw_reflected(within.context, mirrored);
+    ORIEL_TRY_VOID(add_lamps(within, inside, mirrored));
   }
   if (!work.movers.empty()) {
     work.mover_pass.draw_depth(within.context, work.movers);
@@ -277,16 +278,25 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
   return work.scene_pass.draw_transparent(within.context, {});
 }
 
+Status ReflectionRenderer::add_lamps(const ReflectionWork& work, const ReflectionTarget& target,
+                                     const MirroredScene& mirrored) {
+  if (work.lamps == nullptr) return {};
+  ORIEL_TRY_VOID(
+      work.lamps->draw(work.context, LitImage::of(*target.image), {mirrored.shown, true, mirrored.reflective, {}}));
+  target.bind(work.context.view);
+  return {};
+}
+
 // The opaque scene in a mirror, with what its own reflectors show.
 Status ReflectionRenderer::draw_mirrors_in(const ReflectionWork& work, const ReflectionTarget& target,
                                            MirroredScene& mirrored) {
-  const auto& [context, scene_pass, mover_pass, movers] = work;
+  const auto& [context, scene_pass, mover_pass, movers, lamps] = work;
   const View& view = context.view;
   const auto in_view = [&](const GpuReflector& r) { return !project_polygon(view.clip_from_pack, r.corners).empty; };
   const auto& planar = context.scene.reflectors();
   if (std::none_of(planar.begin(), planar.end(), in_view) && context.scene.curved_reflectors().empty()) {
     scene_pass.draw_reflected(context, mirrored);
-    return {};
+    return add_lamps(work, target, mirrored);
   }
   scene_pass.draw_reflected_depth(context, mirrored);
   ReflectionMarks marks;
@@ -294,6 +304,7 @@ Status ReflectionRenderer::draw_mirrors_in(const ReflectionWork& work, const Ref
   ORIEL_TRY(const auto curved, draw_curved(context, target, marks));
   mirrored.reflective = marks.reflective;
   scene_pass.draw_reflected(context, mirrored);
+  ORIEL_TRY_VOID(add_lamps(work, target, mirrored));
   for (const MarkedReflector& marked : inside) ORIEL_TRY_VOID(draw(work, target, marked, nullptr));
   target.bind(view);
   add_curved(context, curved);

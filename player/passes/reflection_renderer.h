@@ -12,6 +12,7 @@
 
 #include "player/movers/mover_pass.h"
 #include "player/navigation/zone.h"
+#include "player/passes/multi_pass.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
 #include "player/passes/scene_pass.h"
@@ -31,6 +32,7 @@ struct ReflectionWork {
   const ScenePass& scene_pass;
   const MoverPass& mover_pass;
   std::span<const PlacedMover> movers;  // as mirrors show them: in light without shadows of their own
+  MultiPass* lamps = nullptr;           // light that the lightmap is without; none: it has all
 };
 
 // Where reflectors are drawn: the frame, or the image of another one.
@@ -83,6 +85,8 @@ class ReflectionRenderer {
                     const ReflectedImage& image);
   Status draw_mirrored(const ReflectionWork& work, const ReflectionTarget& target, const ReflectedImage& image);
   Status draw_mirrors_in(const ReflectionWork& work, const ReflectionTarget& target, MirroredScene& mirrored);
+  // Into the image of a mirror.
+  static Status add_lamps(const ReflectionWork& work, const ReflectionTarget& target, const MirroredScene& mirrored);
   void compose(const FrameContext& context, const ReflectionTarget& target, const MarkedReflector& marked,
                const ReflectedImage& image) const;
 

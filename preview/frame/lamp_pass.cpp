@@ -21,7 +21,7 @@ Result<PassLight> make_pass_light(const SeenSurfaces& surfaces) {
 
 Result<VolumePass> VolumePass::create(gpu::Dialect dialect) {
   VolumePass pass;
-  ORIEL_TRY(pass.program_, gpu::Program::create("preview_volume", dialect));
+  ORIEL_TRY(pass.program_, gpu::Program::create("shadow_volume", dialect));
   return pass;
 }
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "formats/shadow/shadow_mesh.h"
 #include "preview/frame/lamps.h"
-#include "preview/frame/shadow_mesh.h"
 #include "preview/frame/surface_pass.h"
 
 namespace oriel {

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "bake/jobs/parallel.h"
+#include "bake/scene/shade.h"
 
 namespace oriel {
 namespace {
@@ -26,6 +27,13 @@ Status make_rays(PreviewScene& scene, const PreviewScene* same, Context& context
   return {};
 }
 
+// Surfaces that let light through throw no shadow.
+ShadowMesh shadows_of(const Scene& scene) {
+  std::vector<char> throws(scene.triangles.size());
+  for (std::uint32_t t = 0; t < throws.size(); ++t) throws[t] = may_transmit(scene.material_of(t)) ? 0 : 1;
+  return {scene.positions, scene.triangles, throws};
+}
+
 }  // namespace
 
 void find_lamps(PreviewScene& scene) {
@@ -45,7 +53,7 @@ Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene 
   std::jthread passes([&] {
     const Clock::time_point begun = Clock::now();
     out->lamps = Lamps(scene);
-    out->shadows = same != nullptr ? same->shadows : std::make_shared<const ShadowMesh>(scene);
+    out->shadows = same != nullptr ? same->shadows : std::make_shared<const ShadowMesh>(shadows_of(scene));
     out->passes_s = seconds_since(begun);
   });
   const Clock::time_point begun = Clock::now();

@@ -8,9 +8,9 @@
 #include "bake/import/import.h"
 #include "bake/trace/emission.h"
 #include "bake/trace/path.h"
+#include "formats/shadow/shadow_mesh.h"
 #include "preview/frame/lamps.h"
 #include "preview/frame/scene_parts.h"
-#include "preview/frame/shadow_mesh.h"
 
 namespace oriel {
 

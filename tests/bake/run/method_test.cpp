@@ -1,4 +1,4 @@
-// oriel-bake --method bastos1999 as a user meets it.
+// oriel-bake --method as a user meets it.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -18,19 +18,24 @@ std::string text_of(const std::filesystem::path& file) {
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "";
 }
 
+class PublishedMethod : public ::testing::Test {
+ protected:
+  std::string log() const { return text_of(folder_.path() / "log"); }
+  int run(const std::string& command) const {
+    const std::string line =
+        "cd '" + folder_.path().string() + "' && '" + ORIEL_BIN_DIR + "'/" + command + " >log 2>&1";
+    return WEXITSTATUS(std::system(line.c_str()));
+  }
+  const testing::TemporaryFolder folder_;
+};
+
 // Bastos et al. 1999: a hemisphere of 64 behind each element, all maps of one size with the lamps in them, Beckmann's
 // D·G.
-TEST(PublishedMethod, IsInThePack) {
-  const testing::TemporaryFolder folder;
-  const auto log = [&] { return text_of(folder.path() / "log"); };
-  const auto run = [&](const std::string& command) {
-    const std::string line = "cd '" + folder.path().string() + "' && '" + ORIEL_BIN_DIR + "'/" + command + " >log 2>&1";
-    return WEXITSTATUS(std::system(line.c_str()));
-  };
+TEST_F(PublishedMethod, IsInThePack) {
   ASSERT_EQ(run("oriel-scenes gallery -o gallery.glb"), 0) << log();
   const std::string bake = "oriel-bake gallery.glb --no-cache -o a.oriel --texel 1m --samples 4 --method bastos1999 ";
   ASSERT_EQ(run(bake + "--map-resolution 16 --quiet"), 0) << log();
-  const Pack pack = *read_pack(folder.path() / "a.oriel");
+  const Pack pack = *read_pack(folder_.path() / "a.oriel");
   ASSERT_EQ(pack.reflectors.size(), 3u);
   EXPECT_TRUE(pack.emitters.empty() && pack.map_meshes.empty() && pack.curved_reflectors.empty());
   for (const Reflector& r : pack.reflectors) {
@@ -56,6 +61,33 @@ TEST(PublishedMethod, IsInThePack) {
     EXPECT_NE(log().find("bastos1999"), std::string::npos) << log();
   }
   EXPECT_EQ(run("oriel-bake gallery.glb -o a.oriel --facets gaussian"), 1) << "of that method alone";
+}
+
+// Diefenbach & Badler 1997: what lamps give at once is not in the lightmap, the lamps are listed, mirrors have no maps.
+TEST_F(PublishedMethod, LeavesLampsToPasses) {
+  ASSERT_EQ(run("oriel-scenes gallery -o gallery.glb"), 0) << log();
+  const std::string bake = "oriel-bake gallery.glb --no-cache --texel 1m --samples 4 --quiet -o ";
+  ASSERT_EQ(run(bake + "all.oriel"), 0) << log();
+  ASSERT_EQ(run(bake + "passes.oriel --method diefenbach1997"), 0) << log();
+  const Pack all = *read_pack(folder_.path() / "all.oriel"), passes = *read_pack(folder_.path() / "passes.oriel");
+  EXPECT_TRUE(passes.radiance_maps.empty() && passes.light_groups.empty());
+  EXPECT_EQ(passes.reflectors.size(), all.reflectors.size());
+  EXPECT_GT(passes.light_field.lights.size(), 0u);
+  EXPECT_EQ(passes.light_field.bands, 2);
+  double lux = 0, of_all = 0;
+  for (std::size_t p = 0; p < passes.lightmaps.size(); ++p)
+    for (std::size_t t = 0; t < passes.lightmaps[p].irradiance.size(); ++t) {
+      lux += passes.lightmaps[p].irradiance[t].g;
+      of_all += all.lightmaps[p].irradiance[t].g;
+    }
+  EXPECT_GT(lux, 0.1 * of_all);
+  EXPECT_LT(lux, 0.9 * of_all);
+  EXPECT_EQ(nlohmann::json::parse(passes.provenance)["options"]["method"], "diefenbach1997");
+  for (const char* clash : {"--reflections maps", "--estimator reference", "--radiosity vertices",
+                            "--light-groups each", "--hidden-black", "--facets gaussian"}) {
+    EXPECT_EQ(run(bake + "passes.oriel --method diefenbach1997 " + clash), 1) << clash;
+    EXPECT_NE(log().find("--method"), std::string::npos) << log();
+  }
 }
 
 }  // namespace
