@@ -25,21 +25,25 @@ std::vector<std::string> node_names(const Document& document, std::span<const No
   return names;
 }
 
-// By node: 0 no mover, 1 because it moves, 2 because it was asked for.
+// Why a node is a mover.
+constexpr char kMoves = 1, kAsked = 2;
+
+// By node: 0 no mover.
 Result<std::vector<char>> mark(const Document& document, std::span<const NodePose> poses,
                                std::span<const std::string> names) {
   std::vector<char> marks(document.nodes.size());
   for (const gltf::AnimationDesc& animation : document.animations)
     for (const gltf::AnimationDesc::Channel& channel : animation.channels)
       if (is_motion(document, channel) && channel.target != "scale")
-        if (const auto node = static_cast<std::size_t>(channel.node); document.nodes[node].camera < 0) marks[node] = 1;
+        if (const auto node = static_cast<std::size_t>(channel.node); document.nodes[node].camera < 0)
+          marks[node] = kMoves;
   for (std::size_t i = 0; i < marks.size(); ++i)
-    if (document.nodes[i].mover) marks[i] = 2;
+    if (document.nodes[i].mover) marks[i] |= kAsked;
   for (const std::string& name : names) {
     bool found = false;
     for (const NodePose& pose : poses) {
       if (document.nodes[pose.node].name != name) continue;
-      marks[pose.node] = 2;
+      marks[pose.node] |= kAsked;
       found = true;
     }
     if (!found)
@@ -111,9 +115,10 @@ void part_lamps(Scene& scene, std::vector<char> has_lamp, Context& context) {
 }
 
 // Whether the light goes along: the sun of a turning node is no lamp that the player could move.
-bool carry_light(const std::string& path, std::int32_t mover, Scene& scene) {
+bool carry_light(const std::string& path, const Vec3& position, std::int32_t mover, Scene& scene) {
   for (Light& light : scene.lights) {
-    if (light.node_path != path || light.type == LightType::kDirectional) continue;
+    const bool is_it = light.node_path == path && light.position == position && light.motion < 0;  // names may repeat
+    if (!is_it || light.type == LightType::kDirectional) continue;
     light.motion = mover;  // for now; part_lamps() makes it a lamp's
     return true;
   }
@@ -275,14 +280,14 @@ Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::str
                          : node.parent >= 0    ? nearest[static_cast<std::size_t>(node.parent)]
                                                : -1;
     const std::int32_t top = nearest[pose.node];
-    if (top >= 0 && (node.mesh >= 0 || (node.light >= 0 && marks[static_cast<std::size_t>(top)] == 1)))
+    if (top >= 0 && (node.mesh >= 0 || (node.light >= 0 && (marks[static_cast<std::size_t>(top)] & kMoves) != 0)))
       shown[static_cast<std::size_t>(top)] = 1;
   }
   for (const NodePose& pose : poses) {
     if (shown[pose.node]) {
       movers.of_node[pose.node] = static_cast<std::int32_t>(movers.nodes.size());
       movers.nodes.push_back(pose.node);
-    } else if (marks[pose.node] == 2) {
+    } else if ((marks[pose.node] & kAsked) != 0) {
       context.warning(fmt::format("mover \"{}\" shows no mesh: it is none", mover_name(document, pose.node)));
     }
   }
@@ -307,7 +312,8 @@ Status place_movers(const PosedNodes& nodes, std::span<const Animation> animatio
       ORIEL_TRY(out.keys, mover_keys(document, pose.node, animations, scene.origin, context));
     }
     if (document.nodes[pose.node].light < 0) continue;
-    if (!out.keys.empty() && carry_light(names.path(pose.node), mover, scene))
+    const Vec3 position(DVec3(pose.world_from_node[3]) - scene.origin);
+    if (!out.keys.empty() && carry_light(names.path(pose.node), position, mover, scene))
       has_lamp[static_cast<std::size_t>(mover)] = 1;
     else
       context.warning(fmt::format("mover \"{}\" carries the light \"{}\": that stays where it is", out.name,
@@ -319,18 +325,21 @@ Status place_movers(const PosedNodes& nodes, std::span<const Animation> animatio
 
 Status move_nodes(std::span<const MoverMove> moves, Scene& scene) {
   for (const MoverMove& move : moves) {
-    const auto mover = std::ranges::find(scene.movers, move.node, &SceneMover::name);
-    if (mover != scene.movers.end()) {
-      move_mover(scene, static_cast<std::size_t>(mover - scene.movers.begin()), moved(mover->rest, move, scene.origin));
-      continue;
-    }
+    const auto animated = [&](const SceneMover& m) { return m.name == move.node || m.name == move.node + " light"; };
     const ShiningNodes lamp = shining_nodes(scene, move.node);
+    if (lamp.animated || std::ranges::any_of(scene.lamp_motions, animated))
+      return fail(ErrorCode::kUsage, "--move", "found the lamp \"{}\", expected one that the file does not animate",
+                  move.node);
+    bool found = false;
+    for (std::size_t m = 0; m < scene.movers.size(); ++m)
+      if (scene.movers[m].name == move.node) {
+        move_mover(scene, m, moved(scene.movers[m].rest, move, scene.origin));
+        found = true;
+      }
+    if (found) continue;
     if (lamp.surfaces.empty() && lamp.lights.empty())
       return fail(ErrorCode::kUsage, "--move", "found \"{}\", expected a mover or a lamp of the scene: {}", move.node,
                   names_like(move.node, movable_names(scene)));
-    if (lamp.animated)
-      return fail(ErrorCode::kUsage, "--move", "found the lamp \"{}\", expected one that the file does not animate",
-                  move.node);
     move_lamp(scene, lamp, move);
   }
   if (!moves.empty()) find_bounds(scene);

@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t kMostTriangles = 16;  // of a lamp: finer ones leave no room for others
 constexpr double kStraight = 1e-4;          // sine of the angle at a corner that is none
 constexpr double kLeastShare = 1e-4;        // of a reflector's light from lamps: less is not worth an emitter
+constexpr std::size_t kMostGlints = 16;     // of a mirror
 constexpr std::uint32_t kFirstSamples = 8;  // of a sun, a point or a spot, which nodes hardly see in part
 
 // The corners of a light's outline, counter-clockwise from its front; empty unless it is one closed loop.
@@ -286,7 +287,7 @@ Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Con
         ++left_in.parted;
         continue;
       }
-      if (r.emitters.size() + l.polygons.size() > kMaxReflectorEmitters) {
+      if (r.emitters.size() + l.polygons.size() > (lobe_width > 0 ? kMaxReflectorEmitters : kMostGlints)) {
         ++left_in.too_many;
         continue;
       }

@@ -51,6 +51,13 @@ void tell_of_others(const Scene& scene, const BrightLights& all, std::vector<War
 
 }  // namespace
 
+Status check_lamps(const BakeTask& bake) {
+  const std::size_t lamps = BrightLights(bake.accel(), bake.lights).choose_all();
+  if (lamps <= kMaxBrightLights) return {};
+  return fail(ErrorCode::kUsage, "--method diefenbach1997", "found {} lamps, expected at most {}: each is a pass",
+              lamps, kMaxBrightLights);
+}
+
 Status list_lamps(const BakeTask& bake, std::vector<Warning>& omissions) {
   const Scene& scene = bake.scene();
   BrightLights all(bake.accel(), bake.lights);
@@ -60,9 +67,6 @@ Status list_lamps(const BakeTask& bake, std::vector<Warning>& omissions) {
   for (BrightLight& lamp : all.list())
     if (std::ranges::none_of(field.lights, [&](const BrightLight& known) { return same_lamp(known, lamp); }))
       field.lights.push_back(std::move(lamp));
-  if (lamps > kMaxBrightLights)
-    return fail(ErrorCode::kUsage, "--method diefenbach1997", "found {} lamps, expected at most {}: each is a pass",
-                lamps, kMaxBrightLights);
   tell_of_others(scene, all, omissions);
   return {};
 }

@@ -43,25 +43,24 @@ std::string above(const std::string& path) {
 // own.
 std::vector<Lamp> find_lamps(const Scene& scene) {
   std::vector<Lamp> lamps;
-  std::map<std::string, std::size_t> known;
-  const auto lamp_at = [&](const std::string& path, const std::string& name) -> Lamp& {
-    const auto [at, added] = known.try_emplace(path.empty() ? name : path, lamps.size());
-    if (added) lamps.push_back({name, path, {}, {}, {}, {}});
+  std::map<std::pair<std::string, std::int32_t>, std::size_t> known;
+  const auto lamp_at = [&](const std::string& path, const std::string& name, std::int32_t motion) -> Lamp& {
+    // What moves is a lamp of its own: names may repeat.
+    const auto [at, added] = known.try_emplace({path.empty() ? name : path, motion}, lamps.size());
+    if (added) lamps.push_back({.name = name, .path = path, .motion = motion});
     return lamps[at->second];
   };
   for (std::uint32_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& surface = scene.surfaces[i];
     if (!shines(scene, surface)) continue;
-    Lamp& lamp = lamp_at(surface.node_path, last_step(surface.node_path));
+    Lamp& lamp = lamp_at(surface.node_path, last_step(surface.node_path), surface.motion);
     lamp.surfaces.push_back(i), lamp.mesh = surface.mesh_name, lamp.mark = surface.group_mark;
-    lamp.motion = std::max(lamp.motion, surface.motion);
   }
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (light.hour >= 0) continue;
-    Lamp& lamp = lamp_at(light.node_path, light.name);
+    Lamp& lamp = lamp_at(light.node_path, light.name, light.motion);
     lamp.lights.push_back(i), lamp.mark = light.group_mark;
-    lamp.motion = std::max(lamp.motion, light.motion);
   }
   if (luminance(scene.sky) > 0 && scene.day.empty()) lamps.push_back({"sky", "sky", {}, {}, {}, {}, true});
   return lamps;
@@ -200,18 +199,11 @@ class Groups {
       for (const std::uint32_t l : lamp.lights) scene_.lights[l].light_group = number;
       if (lamp.sky) scene_.sky_group = number;
     }
-    find_motions(context);
-  }
-
- private:
-  std::string unused(const std::string& wanted) const {
-    std::string name = wanted;
-    for (int n = 2; std::ranges::find(names_, name) != names_.end(); ++n) name = fmt::format("{} {}", wanted, n);
-    return name;
   }
 
   // A group moves where all of its lamps do.
   void find_motions(Context& context) {
+    if (names_.empty()) return;
     std::vector<std::set<std::int32_t>> motions(scene_.light_groups.size());
     for (const Lamp& lamp : lamps_) motions[lamp.group == kNone ? motions.size() - 1 : lamp.group].insert(lamp.motion);
     for (std::size_t g = 0; g < motions.size(); ++g) {
@@ -221,6 +213,13 @@ class Groups {
         context.warning(fmt::format("the light group \"{}\" has lamps that are animated and others: they stand still",
                                     scene_.light_groups[g].name));
     }
+  }
+
+ private:
+  std::string unused(const std::string& wanted) const {
+    std::string name = wanted;
+    for (int n = 2; std::ranges::find(names_, name) != names_.end(); ++n) name = fmt::format("{} {}", wanted, n);
+    return name;
   }
 
   Status no_such_lamp(const std::string& file, const std::string& name, const std::string& pattern) const {
@@ -282,6 +281,7 @@ Status assign_light_groups(const LightGroupOptions& options, Scene& scene, Conte
   if (options.by == LightGrouping::kEach) groups.one_each();
   if (options.by != LightGrouping::kOff) groups.by_motions(context);
   groups.write(context);
+  if (options.by != LightGrouping::kOff) groups.find_motions(context);
   return {};
 }
 

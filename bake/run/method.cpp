@@ -15,6 +15,8 @@ Status clash(const char* method, const char* found, const char* expected) {
 Status settle_passes(const Given& given, BakeOptions& o) {
   if (o.radiosity.estimator != Estimator::kCached)
     return clash(kPasses, "--estimator reference", "cached: it tells reflected light from that of lamps");
+  if (o.radiosity.bounces != 0)
+    return clash(kPasses, "--bounces", "all: light by way of mirrors is followed there alone");
   if (o.radiosity.hidden == Hidden::kBlack) return clash(kPasses, "--hidden-black", "none");
   if (o.vertex_light) return clash(kPasses, "--radiosity vertices", "texture");
   if (o.import.day.wanted) return clash(kPasses, "--day", "lamps: light of hours is switched, not drawn");

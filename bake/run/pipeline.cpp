@@ -106,13 +106,16 @@ class Bake {
     transport_.emplace(accel(), *lights_, path_options(options_));
     warn_about_light(scene(), *lights_, context_);
     foretell_light();
+    if (options_.method == Method::kDiefenbach1997) ORIEL_TRY_VOID(check_lamps(task()));
     return {};
   }
 
   void foretell_light() {
     double texels = 0;
     for (const TexelMapPage& page : prepared_.texel_map) texels += static_cast<double>(page.texel.size());
-    forecast_.expect("probes", !prepared_.wants_light_field() ? 0 : kLightField * Forecast::kTexel_s * texels);
+    forecast_.expect("probes", !(options_.with_transfer && prepared_.wants_light_field())
+                                   ? 0
+                                   : kLightField * Forecast::kTexel_s * texels);
     forecast_.expect("first light", std::max(Forecast::kTexel_s * texels / thread_count(context_), kLeastLight_s));
   }
 
@@ -277,7 +280,7 @@ class Bake {
 
   // The light that movers meet.
   Status make_light_field() {
-    if (!prepared_.wants_light_field()) {
+    if (!(options_.with_transfer && prepared_.wants_light_field())) {
       if (options_.with_transfer)
         result_.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
       return {};

@@ -156,7 +156,10 @@ bool choose_directional(const Scene& scene, Directional wanted, std::vector<Warn
 }
 
 bool PreparedScene::wants_light_field() const {
-  return !movers.empty() || std::ranges::any_of(scene().lights, [](const Light& light) { return light.motion >= 0; });
+  const auto& groups = scene().light_groups;
+  return !movers.empty() || std::ranges::any_of(scene().lights, [&](const Light& light) {
+    return !groups.empty() && groups[light.light_group].motion >= 0;
+  });
 }
 
 std::optional<double> guessed_unit(const Accel& accel, double unit_m, Context& context) {

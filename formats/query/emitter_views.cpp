@@ -1,5 +1,6 @@
 #include "formats/query/emitter_views.h"
 
+#include <array>
 #include <optional>
 
 #include "formats/core/color.h"
@@ -11,6 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kRays = 32, kFirstRays = 8;  // to a polygon; the first alone where they agree
+constexpr float kOnEdge = 0.05f;                     // cells by which a node may lie beside a triangle
 
 // The side of the emitter that shines is where this points.
 Vec3 front_of(const Emitter& emitter) {
@@ -39,6 +41,43 @@ Vec3 vector_of(const Emitter& emitter, const Vec3& point, const Vec3& normal) {
   return polygon_vector(clip(polygon, normal));
 }
 
+// Which nodes lie on the reflector's triangles, glass or not.
+std::vector<bool> covered_nodes(const Reflector& r, const Mesh& mesh, std::uint32_t x, std::uint32_t y) {
+  std::vector<bool> covered(std::size_t{x} * y);
+  const Vec2 last(x - 1, y - 1), cells = last / glm::max(r.upper - r.lower, Vec2(1e-30f));
+  for (std::size_t i = 0; i + 2 < r.indices.size(); i += 3) {
+    std::array<Vec2, 3> c;  // in cells
+    for (std::size_t k = 0; k < 3; ++k)
+      c[k] = (Vec2(reflector_from_pack(r, mesh.positions[r.indices[i + k]])) - r.lower) * cells;
+    const auto cross = [](const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; };
+    const float area = cross(c[1] - c[0], c[2] - c[0]);
+    const Vec2 lower = glm::max(glm::ceil(glm::min(glm::min(c[0], c[1]), c[2]) - kOnEdge), Vec2(0));
+    const Vec2 upper = glm::min(glm::floor(glm::max(glm::max(c[0], c[1]), c[2]) + kOnEdge), last);
+    for (float j = lower.y; j <= upper.y; ++j)
+      for (float k = lower.x; k <= upper.x; ++k) {
+        bool inside = area != 0;
+        for (std::size_t e = 0; e < 3 && inside; ++e) {
+          const Vec2 edge = c[(e + 1) % 3] - c[e];
+          inside = cross(edge, Vec2(k, j) - c[e]) * (area < 0 ? -1.0f : 1.0f) >= -kOnEdge * glm::length(edge);
+        }
+        if (inside) covered[static_cast<std::size_t>(j) * x + static_cast<std::size_t>(k)] = true;
+      }
+  }
+  return covered;
+}
+
+// What a point or spot sends towards the node over what its square has, [0, 1].
+float fade(const LiveLight& light, const Emitter& square, const Vec3& node) {
+  const Vec3 to = light.position - node;
+  const float distance2 = length2(to);
+  if (!(distance2 > 0)) return 0;
+  const Vec3 towards = to / std::sqrt(distance2), front = front_of(square);
+  const float sends = luminance(unshadowed(light, node, towards)) * distance2;
+  const float area = glm::length(front);  // of a parallelogram
+  const float shows = luminance(square.radiance) * -glm::dot(front, towards);
+  return area > 0 && shows > 0 ? std::clamp(sends / shows, 0.0f, 1.0f) : 0.0f;
+}
+
 class Viewer {
  public:
   Viewer(const EmitterQuestion& question, const LampScene& scene, const MoverPose& pose)
@@ -58,11 +97,7 @@ class Viewer {
     view.x = has_nodes ? r.visibility_x : nodes_along(size.x, kNodeDistance_m, kMostNodesAlong);
     view.y = has_nodes ? r.visibility_y : nodes_along(size.y, kNodeDistance_m, kMostNodesAlong);
     const ReflectorNodes nodes = lay_out_nodes(r, view.x, view.y);
-    std::vector<bool> covered;
-    for (const Vec3& point : nodes.points) {
-      const auto below = scene_.first_surface(point, -normal);
-      covered.push_back(below && below->distance <= 4 * nodes.lift_m && below->material == r.material);
-    }
+    const std::vector<bool> covered = covered_nodes(r, scene_.mesh(), view.x, view.y);
     Worth worth;
     for (const std::uint32_t p : view.polygons) {
       std::vector<float> shares = seen_from(nodes, normal, p);
@@ -121,8 +156,11 @@ class Viewer {
   std::vector<float> seen_from(const ReflectorNodes& nodes, const Vec3& normal, std::uint32_t polygon) const {
     std::vector<float> shares;
     const auto first = static_cast<std::uint32_t>(polygon * nodes.points.size());
-    for (std::uint32_t i = 0; i < nodes.points.size(); ++i)
-      shares.push_back(share(nodes.points[i], normal, question_.lamp[polygon], first + i));
+    const Emitter& emitter = question_.lamp[polygon];
+    for (std::uint32_t i = 0; i < nodes.points.size(); ++i) {
+      shares.push_back(share(nodes.points[i], normal, emitter, first + i));
+      if (question_.of[polygon] >= 0) shares.back() *= fade(question_.points[polygon], emitter, nodes.points[i]);
+    }
     return shares;
   }
 

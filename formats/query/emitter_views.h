@@ -34,9 +34,10 @@ struct EmitterView {
 // What is asked: all outlive the answer.
 struct EmitterQuestion {
   std::span<const Reflector> reflectors;
-  std::span<const float> alphas;     // of each reflector's lobe; 0: a mirror, whose image has what has a surface
-  std::span<const Emitter> lamp;     // where it is now, pack space
-  std::span<const std::int64_t> of;  // by polygon: the only reflector that shows it (points, spots); -1: any may
+  std::span<const float> alphas;      // of each reflector's lobe; 0: a mirror, whose image has what has a surface
+  std::span<const Emitter> lamp;      // where it is now, pack space
+  std::span<const std::int64_t> of;   // by polygon: the only reflector that shows it (points, spots); -1: any may
+  std::span<const LiveLight> points;  // by polygon: who such a one stands for, where it is now
 };
 // Of the reflectors that it lights and shows in closed form; the others have it in their maps or images. By the scene's
 // rays, up to 32 from a node to a polygon. stop: null, or ends it early.

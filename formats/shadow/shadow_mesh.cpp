@@ -27,7 +27,8 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   return i;
 }
 
-constexpr double kFlat = 1e-5;  // of the mesh's size
+constexpr double kFlat = 1e-5;      // of the mesh's size
+constexpr double kRounding = 5e-7;  // of its coordinates
 
 // An edge of a triangle, before those of one place are brought together.
 struct HalfEdge {
@@ -52,7 +53,9 @@ ShadowMesh::ShadowMesh(std::span<const Vec3> positions, std::span<const UVec3> t
     lower = v == 0 ? positions_[v] : glm::min(lower, positions_[v]);
     upper = v == 0 ? positions_[v] : glm::max(upper, positions_[v]);
   }
-  flat_ = kFlat * glm::length(DVec3(upper) - DVec3(lower));
+  // A point on the mesh is rounded as its coordinates are.
+  flat_ = kFlat * glm::length(DVec3(upper) - DVec3(lower)) +
+          kRounding * double{max_component(glm::max(glm::abs(lower), glm::abs(upper)))};
   for (const UVec3& t : triangles_) {
     const DVec3 a(positions_[t.x]), b(positions_[t.y]), c(positions_[t.z]);
     const DVec3 normal = glm::cross(b - a, c - a);

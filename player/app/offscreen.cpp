@@ -102,7 +102,7 @@ class Studio {
     options_.look = 0;
     ORIEL_TRY_VOID(renderer_.take_light(mean.mean()));
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    return FrameRecord{shot.name, took.count(), stats, zone_.holds(shot.camera.eye)};
+    return FrameRecord{shot.name, took.count(), stats, zone_.holds(shot.camera.eye), tell_of_lamps()};
   }
 
   // In a frame of its own: it reads images back.

@@ -107,7 +107,7 @@ void MapLight::shine(const MapLights& lights, std::uint32_t index, RadianceMap& 
   uncover(lights, *seen, map);
   std::vector<const MovedLamp*> lamps;
   for (const auto& lamp : lights.factors.moved)
-    if (map.has_emission || !lamp->is_emitter_of(map.reflector)) lamps.push_back(lamp.get());
+    if (!lamp->is_emitter_of(map.reflector)) lamps.push_back(lamp.get());
   show(
       lamps, [&](std::size_t i) { return seen_ray(map, reflector, i); }, map);
 }

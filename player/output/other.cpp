@@ -12,6 +12,7 @@
 #include "player/navigation/poses.h"
 #include "player/output/fit_picture.h"
 #include "player/output/split.h"
+#include "player/session/method.h"
 
 namespace oriel {
 namespace {
@@ -85,6 +86,7 @@ Status Other::draw(const Seen& seen) {
   }
   const Pack& pack = scene_->pack();
   FrameOptions options = seen.options;
+  options.multi_pass.on = method_of(pack) == "diefenbach1997";
   std::vector<MoverMove> moves(seen.moves.begin(), seen.moves.end());
   std::erase_if(moves, [&](const MoverMove& move) {
     return std::ranges::find(pack.movers, move.node, &Mover::name) == pack.movers.end() &&

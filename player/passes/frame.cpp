@@ -24,7 +24,8 @@ std::vector<DrawBatch> choose_shown(const FrameContext& context) {
     stats.groups = static_cast<std::uint32_t>(seen->size());
     stats.groups_seen = static_cast<std::uint32_t>(std::count(seen->begin(), seen->end(), 1));
   }
-  return options.coarse ? scene.show_fewer(view, seen) : scene.show(make_frustum(view.clip_from_pack), seen);
+  return options.coarse && !options.multi_pass.on ? scene.show_fewer(view, seen)
+                                                  : scene.show(make_frustum(view.clip_from_pack), seen);
 }
 
 // Movers as mirrors show them: bright lights are among their harmonics, without shadows.

@@ -83,6 +83,10 @@ LightPaths find_light_paths(std::span<const LightSource> sources, std::span<cons
         if (!path.mirrors.empty() &&
             (path.mirrors.back() == m || !face_each_other(mirrors[path.mirrors.back()], mirrors[m])))
           continue;
+        if (out.paths.size() + next.size() >= kMostLightPaths) {
+          ++out.left_out;
+          continue;
+        }
         next.push_back(path);
         next.back().mirrors.push_back(m);
       }

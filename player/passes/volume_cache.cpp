@@ -119,6 +119,7 @@ std::shared_ptr<const VolumeCache::Caster> VolumeCache::make_caster(std::span<co
 void VolumeCache::take_scene(const GpuScene& scene) {
   const Mesh& mesh = scene.pack().mesh;
   objects_.clear(), volumes_.clear(), bytes_ = 0;
+  mirrors_.clear(), apertures_.clear(), aperture_volumes_.clear();
   std::map<std::string, std::vector<UVec3>> by_name;
   for (const MeshPart& part : mesh.parts)
     if (throws_shadow(scene, part.material)) add_part(mesh, part, by_name[part.name]);

@@ -368,6 +368,8 @@ bool GpuScene::fits_halves() const {
     most = std::max(most, max_component(brightest_emission(m)));
   for (std::uint32_t i = 0; i < pack_.lightmaps.size(); ++i)
     most = std::max(most, images_->light(i).scale * kOfScale / kPi);
+  for (std::size_t e = 0; e < pack_.emitters.size(); ++e)  // glints: suns, points and spots
+    if (emitters_[e].empty()) most = std::max(most, max_component(pack_.emitters[e].radiance));
   return most <= kMostInHalves;
 }
 

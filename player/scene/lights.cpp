@@ -1,5 +1,7 @@
 #include "player/scene/lights.h"
 
+#include <algorithm>
+
 #include "player/navigation/lamps.h"
 
 namespace oriel {
@@ -29,13 +31,28 @@ void BakedLamps::shine(std::span<const Vec3> factors, Pack& pack) const {
   }
 }
 
+Vec3 middle_of(std::span<const Vec3> corners) {
+  return 0.5f * (corners[0] + corners[std::min<std::size_t>(2, corners.size() - 1)]);
+}
+
+bool stands_for_point(const Pack& pack, const LightGroup& group, std::span<const Vec3> corners) {
+  return std::ranges::any_of(group.bright_lights, [&](std::uint32_t b) {
+    const BrightLight& light = pack.light_field.lights[b];
+    return (light.kind == BrightLightKind::kPoint || light.kind == BrightLightKind::kSpot) &&
+           glm::distance(light.position, middle_of(corners)) < 0.1f * glm::distance(corners[0], light.position);
+  });
+}
+
 void BakedLamps::place(std::span<const MoverPose> poses, Pack& pack) const {
   for (std::size_t g = 0; g < poses.size(); ++g) {
     const Mat4 pose(pack_from_object(poses[g]));
     for (const std::uint32_t e : pack.light_groups[g].emitters) {
       pack.emitters[e].corners = corners_[e];
       if (is_rest(poses[g])) continue;
-      for (Vec3& corner : pack.emitters[e].corners) corner = Vec3(pose * Vec4(corner, 1));
+      const Vec3 middle = middle_of(corners_[e]), moved(pose * Vec4(middle, 1));
+      const bool turns = !stands_for_point(pack, pack.light_groups[g], corners_[e]);
+      for (Vec3& corner : pack.emitters[e].corners)
+        corner = turns ? Vec3(pose * Vec4(corner, 1)) : moved + (corner - middle);
     }
   }
 }

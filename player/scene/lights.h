@@ -39,6 +39,11 @@ Vec3 sky_of_day(const Day& day, std::span<const Vec3> factors);
 // found.
 std::vector<BrightLight> placed_lights(const Pack& pack, std::span<const MoverPose> poses);
 
+// Of a triangle or quadrangle; whether one of a group's emitters is the square of a point or spot, which faces a
+// reflector and does not turn with its lamp.
+Vec3 middle_of(std::span<const Vec3> corners);
+bool stands_for_point(const Pack& pack, const LightGroup& group, std::span<const Vec3> corners);
+
 // What light of which groups have these shares becomes, over what it was; exactly 1 where all factors are 1.
 Vec3 mean_factor(const Pack& pack, std::span<const Vec3> factors, std::vector<Vec3> LightGroup::*shares,
                  std::size_t index);

@@ -8,7 +8,7 @@
 
 #include "formats/core/color.h"
 #include "formats/core/parallel.h"
-#include "player/scene/emitter_ranges.h"
+#include "player/scene/lights.h"
 #include "player/scene/live_page.h"
 
 namespace oriel {
@@ -66,6 +66,7 @@ struct LiveLamps::Job {
   bool coarse = false;
   PosedLights now, baked;
   std::vector<Emitter> emitters;  // at the pose
+  std::vector<LiveLight> points;  // likewise, of those that stand for points and spots
   std::atomic<bool> stop{false};
   // What comes of it.
   PageChanges added;
@@ -105,7 +106,7 @@ void LiveLamps::Job::run(const ImageSource& images, std::span<const Reflector> r
     }
     added.push_back(pages[p].change(std::move(direct[p]), *own, bounced ? &*bounced : nullptr, totals));
   }
-  if (!coarse) views = emitter_views({reflectors, alphas, emitters, lamp->shown_by}, *lamp->scene, pose, &stop);
+  if (!coarse) views = emitter_views({reflectors, alphas, emitters, lamp->shown_by, points}, *lamp->scene, pose, &stop);
   report.lights = now.of.lights.size(), report.direct = now.of.direct;
   report.points = static_cast<std::size_t>(totals.points), report.between = static_cast<std::size_t>(totals.between);
   report.missing = totals.now > 0 ? static_cast<float>(totals.missing / totals.now) : 0.0f;
@@ -129,6 +130,10 @@ LiveLamps::LiveLamps(const Pack& pack, const ImageSource& images)
     const bool has_lobe = kernel >= 0 && !pack.kernels[static_cast<std::size_t>(kernel)].fits.empty();
     alphas_.push_back(has_lobe ? pack.kernels[static_cast<std::size_t>(kernel)].alpha : 0.0f);
   }
+  shown_by_.resize(emitters_.size(), -1);
+  for (const LightGroup& group : pack.light_groups)
+    for (const std::uint32_t e : group.emitters)
+      if (stands_for_point(pack, group, emitters_[e].corners)) shown_by_[e] = first_that_lists(pack.reflectors, e);
   for (const Vec3& p : pack.mesh.positions) least_ = glm::min(least_, p), most_ = glm::max(most_, p);
 }
 
@@ -157,9 +162,26 @@ Result<LiveLamps::Lamp*> LiveLamps::lamp_of(std::size_t group) {
     page.standard_error = {}, page.direction = {};
     lamp->pages.push_back(std::move(page));
   }
-  for (const std::uint32_t e : pack_.light_groups[group].emitters)
-    lamp->shown_by.push_back(triangles_of(emitters_[e], pack_).empty() ? first_that_lists(pack_.reflectors, e) : -1);
+  for (const std::uint32_t e : pack_.light_groups[group].emitters) lamp->shown_by.push_back(shown_by_[e]);
   return (lamps_[group] = std::move(lamp)).get();
+}
+
+// The group's point or spot there, moved; none: black.
+LiveLight LiveLamps::point_of(const LightGroup& group, const Vec3& baked, const Mat4& pack_from_lamp) const {
+  LiveLight out;
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const std::uint32_t b : group.bright_lights) {
+    const BrightLight& light = lights_[b];
+    const bool is_spot = light.kind == BrightLightKind::kSpot;
+    const float distance = glm::distance(light.position, baked);
+    if ((!is_spot && light.kind != BrightLightKind::kPoint) || !(distance < nearest)) continue;
+    nearest = distance;
+    out = {Vec3(pack_from_lamp * Vec4(light.position, 1)), Vec3(0), light.intensity};
+    if (!is_spot) continue;
+    out.cos_inner = std::cos(light.inner_cone_rad), out.cos_outer = std::cos(light.outer_cone_rad);
+    out.axis = Mat3(pack_from_lamp) * light.direction;
+  }
+  return out;
 }
 
 void LiveLamps::look_again() {
@@ -185,8 +207,11 @@ std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSe
   job->baked = pose_lights(*lamp.scene, lights, {});
   const Mat4 pack_from_lamp(pack_from_object(lamp.wanted));
   for (const std::uint32_t e : pack_.light_groups[group].emitters) {
-    job->emitters.push_back(emitters_[e]);
-    for (Vec3& corner : job->emitters.back().corners) corner = Vec3(pack_from_lamp * Vec4(corner, 1));
+    Emitter& emitter = job->emitters.emplace_back(emitters_[e]);
+    const Vec3 middle = middle_of(emitter.corners), moved(pack_from_lamp * Vec4(middle, 1));
+    job->points.push_back(point_of(pack_.light_groups[group], middle, pack_from_lamp));
+    for (Vec3& corner : emitter.corners)
+      corner = shown_by_[e] < 0 ? Vec3(pack_from_lamp * Vec4(corner, 1)) : moved + (corner - middle);
   }
   job->report.lamp = pack_.light_groups[group].name;
   const Vec3 at(pack_from_object(lamp.wanted) * DVec4(shape_of_lamp(pack_, pack_.light_groups[group]).centre, 1));

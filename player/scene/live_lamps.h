@@ -59,6 +59,7 @@ class LiveLamps {
   struct Job;
   Result<Lamp*> lamp_of(std::size_t group);
   std::unique_ptr<LampScene> scene_of(std::size_t group) const;
+  LiveLight point_of(const LightGroup& group, const Vec3& baked, const Mat4& pack_from_lamp) const;
   std::unique_ptr<Job> begin(std::size_t group, const LiveSettings& settings, bool coarse);
   bool finish(Job& job);
   Result<bool> step_in_background(const LiveSettings& settings);
@@ -68,6 +69,7 @@ class LiveLamps {
   std::vector<Vec3> emission_;       // by material
   std::vector<BrightLight> lights_;  // of the light field
   std::vector<Emitter> emitters_;
+  std::vector<std::int64_t> shown_by_;                  // as EmitterQuestion::of, by emitter
   std::vector<float> alphas_;                           // of lobes, by reflector
   Vec3 least_, most_;                                   // of all that was baked
   std::map<std::size_t, std::unique_ptr<Lamp>> lamps_;  // that were ever moved, by group

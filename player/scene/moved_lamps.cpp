@@ -106,7 +106,9 @@ MapFactors GpuScene::factors_of_maps() const {
   const auto that_list = [&](const std::vector<std::uint32_t>& emitters) {
     std::vector<std::uint32_t> reflectors;
     for (const GpuReflector& r : reflectors_)
-      if (std::ranges::find_first_of(r.listed, emitters) != r.listed.end()) reflectors.push_back(r.index);
+      if (std::ranges::any_of(r.listed,
+                              [&](std::uint32_t e) { return !emitters_[e].empty() && contains(emitters, e); }))
+        reflectors.push_back(r.index);
     return reflectors;
   };
   for (std::size_t g = 0; g < pack_.light_groups.size(); ++g)

@@ -94,12 +94,16 @@ std::string settle_method(const Given& given, PlayArguments& out) {
   return {};
 }
 
-std::string other_method(const Pack& pack, const PlayArguments& arguments) {
+std::string method_of(const Pack& pack) {
   using Json = nlohmann::json;
   const Json provenance = Json::parse(pack.provenance, nullptr, false);  // a pack's text may be anything
   const Json::json_pointer at("/options/method");
   const bool tells = provenance.is_object() && provenance.contains(at) && provenance[at].is_string();
-  const std::string baked = tells ? provenance[at].get<std::string>() : "";
+  return tells ? provenance[at].get<std::string>() : "";
+}
+
+std::string other_method(const Pack& pack, const PlayArguments& arguments) {
+  const std::string baked = method_of(pack);
   if (arguments.method == ShownMethod::kDiefenbach1997 && baked != "diefenbach1997")
     return "the pack is not of oriel-bake --method diefenbach1997: its lightmap has the light of lamps already, and "
            "what passes add of lamps that it names is there twice";

@@ -77,5 +77,9 @@ float polygon_share(vec3 v[4], vec3 direction, float angle) {
     inside[i] = size > 0.0 ? clamp(side / max(size * angle, 1e-30), -0.5, 0.5) : 0.5;  // a triangle's last edge has no length
   }
   float share = max(inside[0] + inside[2], 0.0) * max(inside[1] + inside[3], 0.0);
+  if (v[3] == v[2] && angle > 0.0) {  // a triangle's edges have no opposite ones: no more than all of it
+    float way = length(v[0] + v[1] + v[2]) / 3.0;
+    share = min(share, 0.5 * abs(facing) / (way * way * way * angle * angle));
+  }
   return facing > 0.0 ? -share : share;
 }

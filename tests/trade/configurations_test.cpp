@@ -24,6 +24,23 @@ std::set<std::string> knobs(const TradePlan& plan) {
   return out;
 }
 
+TEST(Configurations, ShowAMovedLampInEveryWay) {
+  const TradePlan plan = plan_trade(everything(), 0.1, true, "desk lamp=1,2,3");
+  std::size_t moved = 0;
+  for (const Configuration& c : plan.configurations) {
+    EXPECT_EQ(c.moved, c.knob == "moved lamp") << c.name();
+    if (!c.moved) continue;
+    ++moved;
+    const bool anew = c.bake.contains("--move"), live = c.play.contains("--live");
+    EXPECT_EQ(c.play.contains("--move"), live) << c.name();
+    EXPECT_EQ(c.bake.contains("--light-groups"), live || c.play.contains("--light")) << c.name();
+    EXPECT_FALSE(anew && live) << c.name();
+    if (c.play.contains("--light")) EXPECT_EQ(c.play.at("--light"), "desk lamp=off");
+  }
+  EXPECT_EQ(moved, 7u);
+  for (const Configuration& c : plan_trade(everything(), 0.1, true, "").configurations) EXPECT_FALSE(c.moved);
+}
+
 TEST(Configurations, WithoutReflectorsAndMoversVaryTheLightAlone) {
   SceneFacts bare;
   bare.cameras = {"0"};

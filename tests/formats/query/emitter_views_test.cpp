@@ -34,6 +34,7 @@ struct Hall {
     floor.pack_from_reflector = Mat4(Vec4(1, 0, 0, 0), Vec4(0, 0, -1, 0), Vec4(0, 1, 0, 0), Vec4(0, 0, 0, 1));
     floor.lower = Vec2(-2), floor.upper = Vec2(2);
     floor.visibility_x = floor.visibility_y = 5;
+    floor.indices.assign(mesh.indices.begin(), mesh.indices.begin() + 6);
     lamp.corners = {{-kHalf, 2, -kHalf}, {kHalf, 2, -kHalf}, {kHalf, 2, kHalf}, {-kHalf, 2, kHalf}};
     lamp.radiance = Vec3(1000);
   }
@@ -41,7 +42,8 @@ struct Hall {
     Emitter there = lamp;
     for (Vec3& corner : there.corners) corner = Vec3(Mat4(pack_from_object(pose)) * Vec4(corner, 1));
     const LampScene scene({mesh, materials, {}, {}}, {{1}, {Vec3(1000)}, {}});
-    return emitter_views({{&floor, 1}, {&alpha, 1}, {&there, 1}, {&of, 1}}, scene, pose, nullptr);
+    const LiveLight point{there.corners[0], Vec3(0), Vec3(1000 * 4 * kHalf * kHalf)};
+    return emitter_views({{&floor, 1}, {&alpha, 1}, {&there, 1}, {&of, 1}, {&point, 1}}, scene, pose, nullptr);
   }
 };
 
@@ -100,13 +102,39 @@ TEST(EmitterViews, AreNoneOfWhatDoesNotLightTheReflector) {
   EXPECT_EQ(std::pair(views[0].x, views[0].y), std::pair(33u, 33u));
 }
 
+// A square that stands for a point is as bright as the point straight below; beside it its share is less, since the
+// square is seen at an angle but the point is not.
+TEST(EmitterViews, OfPointsHaveWhatThePointSends) {
+  const Hall hall;
+  const auto views = hall.views({}, 0.3f, 0);
+  ASSERT_EQ(views.size(), 1u);
+  const std::vector<std::uint8_t>& seen = views[0].visibility;
+  EXPECT_EQ(seen[10], 0) << "under the plate";
+  EXPECT_GT(seen[13], 250) << "it sends there what the square shows, and more";
+  Hall open = hall;
+  open.materials[2].alpha_mode = AlphaMode::kBlend;  // the plate lets light through
+  open.lamp.radiance = Vec3(4000);                   // four times too bright from straight below
+  const auto all = open.views({}, 0.3f, 0);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_NEAR(all[0].visibility[12], 255 / 4.0, 3);
+  const float cosine = 2 / std::sqrt(4 + 1.0f);
+  EXPECT_NEAR(all[0].visibility[13], 255 / 4.0f / cosine, 8) << "of a point that shines to all sides alike";
+}
+
+// A pane is no obstacle, but it reflects.
+TEST(EmitterViews, AreThoseOfGlassToo) {
+  Hall hall;
+  hall.materials[0].transmission = 1;
+  EXPECT_EQ(hall.views({}, 0.3f).size(), 1u);
+}
+
 TEST(EmitterViews, StopWhenTold) {
   const Hall hall;
   const float alpha = 0.3f;
   const std::int64_t of = -1;
   const LampScene scene({hall.mesh, hall.materials, {}, {}}, {{1}, {Vec3(1000)}, {}});
   const std::atomic<bool> stop{true};
-  EXPECT_TRUE(emitter_views({{&hall.floor, 1}, {&alpha, 1}, {&hall.lamp, 1}, {&of, 1}}, scene, {}, &stop).empty());
+  EXPECT_TRUE(emitter_views({{&hall.floor, 1}, {&alpha, 1}, {&hall.lamp, 1}, {&of, 1}, {}}, scene, {}, &stop).empty());
 }
 
 }  // namespace
