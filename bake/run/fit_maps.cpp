@@ -120,7 +120,7 @@ Result<double> fit_reflections(const BakeTask& bake, const TimeBudget& budget, P
       leave_out_maps({"a few of their pixels already take too long for --time", WarningKind::kTimeOver}, planned);
     shrink_maps(budget.for_maps(), planned);
   }
-  const double field = !bake.prepared.wants_light_field() ? 0 : budget.for_light_field();
+  const double field = bake.options.with_transfer && bake.prepared.wants_light_field() ? budget.for_light_field() : 0;
   return TimeBudget::kept_for(planned.capture_s + TimeBudget::writing(bytes_of(dark, planned))) + field;
 }
 

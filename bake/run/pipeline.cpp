@@ -113,9 +113,7 @@ class Bake {
   void foretell_light() {
     double texels = 0;
     for (const TexelMapPage& page : prepared_.texel_map) texels += static_cast<double>(page.texel.size());
-    forecast_.expect("probes", !(options_.with_transfer && prepared_.wants_light_field())
-                                   ? 0
-                                   : kLightField * Forecast::kTexel_s * texels);
+    forecast_.expect("probes", wants_light_field() ? kLightField * Forecast::kTexel_s * texels : 0);
     forecast_.expect("first light", std::max(Forecast::kTexel_s * texels / thread_count(context_), kLeastLight_s));
   }
 
@@ -278,9 +276,11 @@ class Bake {
     return mirror_geometry(std::move(planned_), mesh_, why, pack());
   }
 
+  bool wants_light_field() const { return options_.with_transfer && prepared_.wants_light_field(); }
+
   // The light that movers meet.
   Status make_light_field() {
-    if (!(options_.with_transfer && prepared_.wants_light_field())) {
+    if (!wants_light_field()) {
       if (options_.with_transfer)
         result_.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
       return {};

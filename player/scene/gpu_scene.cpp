@@ -9,9 +9,6 @@
 namespace oriel {
 namespace {
 
-constexpr float kMostInHalves = 0.75f * 65504;  // cd/m²; the rest is for what a surface mirrors beside its own light
-constexpr float kOfScale = 0x1p15f;             // that an image's light is below (image_data.h)
-
 constexpr int kKernelTaps = 48, kCoarseTaps = 12;
 constexpr std::size_t kFewTriangles = 20000;  // that no device minds
 constexpr float kFewerPixels = 1;             // of a coarse frame, that fewer triangles are off by
@@ -358,26 +355,6 @@ const gpu::Texture2d& GpuScene::sphere_map(std::uint32_t fresnel_map) {
   gpu::Texture2d& texture = sphere_maps_[fresnel_map];
   if (!texture) texture = upload_sphere_map(pack_.fresnel_maps[fresnel_map]);
   return texture;
-}
-
-bool GpuScene::fits_halves() const {
-  constexpr float kLeastRadius = 0.1f;  // m: a near plane of a smaller scene is nearer than 1 / distance can say
-  if (!(0.5f * glm::length(bounds_.upper - bounds_.lower) >= kLeastRadius)) return false;
-  float most = max_component(pack_.sky);
-  for (std::uint32_t m = 0; m < pack_.materials.size(); ++m)
-    most = std::max(most, max_component(brightest_emission(m)));
-  for (std::uint32_t i = 0; i < pack_.lightmaps.size(); ++i)
-    most = std::max(most, images_->light(i).scale * kOfScale / kPi);
-  for (std::size_t e = 0; e < pack_.emitters.size(); ++e)  // glints: suns, points and spots
-    if (emitters_[e].empty()) most = std::max(most, max_component(pack_.emitters[e].radiance));
-  return most <= kMostInHalves;
-}
-
-bool GpuScene::fit_halves(const GpuReflector& reflector) const {
-  float most = 0;
-  for (const MapArray& array : images_->maps(reflector.index).elements)
-    for (const float scale : array.scale) most = std::max(most, scale * kOfScale);
-  return most <= kMostInHalves;
 }
 
 const GpuKernel& GpuScene::kernel(std::uint32_t material, KernelPlace place, bool coarse) {
