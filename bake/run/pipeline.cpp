@@ -276,8 +276,6 @@ class Bake {
     return mirror_geometry(std::move(planned_), mesh_, why, pack());
   }
 
-  bool wants_light_field() const { return options_.with_transfer && prepared_.wants_light_field(); }
-
   // The light that movers meet.
   Status make_light_field() {
     if (!wants_light_field()) {
@@ -349,6 +347,7 @@ class Bake {
     if (context_.units) result_.units = context_.units->share();
   }
 
+  bool wants_light_field() const { return options_.with_transfer && prepared_.wants_light_field(); }
   const Scene& scene() const { return prepared_.scene(); }
   const Accel& accel() const { return *prepared_.accel; }
   Pack& pack() { return result_.pack; }
