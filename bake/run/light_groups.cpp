@@ -47,7 +47,7 @@ std::vector<Lamp> find_lamps(const Scene& scene) {
   const auto lamp_at = [&](const std::string& path, const std::string& name, std::int32_t motion) -> Lamp& {
     // What moves is a lamp of its own: names may repeat.
     const auto [at, added] = known.try_emplace({path.empty() ? name : path, motion}, lamps.size());
-    if (added) lamps.push_back({.name = name, .path = path, .motion = motion});
+    if (added) lamps.push_back({name, path, {}, {}, {}, {}, false, motion});
     return lamps[at->second];
   };
   for (std::uint32_t i = 0; i < scene.surfaces.size(); ++i) {
