@@ -20,6 +20,7 @@ constexpr std::size_t kMostTriangles = 16;  // of a lamp: finer ones leave no ro
 constexpr double kStraight = 1e-4;          // sine of the angle at a corner that is none
 constexpr double kLeastShare = 1e-4;        // of a reflector's light from lamps: less is not worth an emitter
 constexpr std::size_t kMostGlints = 16;     // of a mirror
+constexpr std::size_t kMostEmitters = 512;  // of a pack, with those that no reflector lists
 constexpr std::uint32_t kFirstSamples = 8;  // of a sun, a point or a spot, which nodes hardly see in part
 
 // The corners of a light's outline, counter-clockwise from its front; empty unless it is one closed loop.
@@ -217,6 +218,16 @@ class EmitterChooser {
     return out;
   }
 
+  // The sides of lamps that no reflector sees where they are: a lamp that is moved may show them.
+  void append_rest(const std::map<std::size_t, std::uint32_t>& listed, std::vector<Emitter>& emitters) const {
+    for (std::size_t l = 0; l < lights_.size() && emitters.size() < kMostEmitters; ++l) {
+      const std::size_t triangles = lights_[l].triangles.size();
+      if (triangles == 0 || triangles > kMostTriangles || listed.contains(l)) continue;
+      const std::vector<Emitter> polygons = polygons_of(lights_[l]);
+      emitters.insert(emitters.end(), polygons.begin(), polygons.end());
+    }
+  }
+
   // What the reflector's emitters are seen of, on the fine grid: of lamps the polygons, each by its number.
   Status bake_visibility(std::span<const std::pair<const LightOnReflector*, std::size_t>> polygons,
                          FoundReflector& found) const {
@@ -313,6 +324,7 @@ Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Con
   const bool any_glossy = std::any_of(reflectors.begin(), reflectors.end(), [&](const FoundReflector& f) {
     return options.lobe_widths[f.reflector.material] > 0;
   });
+  if (any_glossy && !accel.scene().light_groups.empty()) chooser.append_rest(first_emitter, emitters);
   if (any_glossy && !all_emission_is_plain(accel.scene()))
     omitted.emplace_back(
         "lamps whose emission is textured stay in the radiance maps of glossy reflectors and are blurred with them");

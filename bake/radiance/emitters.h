@@ -26,6 +26,7 @@ struct EmitterOptions {
 // For each reflector with a lobe the lamps that light it most are left out of its maps: at most kMaxReflectorEmitters
 // polygons. Sets the reflectors' emitters, and in Reflector the emitters with their visibility; appends to `emitters`
 // what they refer to.
+// Where there are light groups, `emitters` ends with lamps' polygons that no reflector lists: lamps may be moved.
 // A lamp is left out whole or not at all; textured ones, those of more triangles and those that are partly hidden and
 // not small beside the lobe, so that the share which a point sees is not that which the lobe sees, stay in the maps,
 // and so do those beyond that number, with a line in `omitted` each time. Of a reflector that is drawn as geometry,

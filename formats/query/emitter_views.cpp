@@ -99,8 +99,12 @@ class Viewer {
     const ReflectorNodes nodes = lay_out_nodes(r, view.x, view.y);
     const std::vector<bool> covered = covered_nodes(r, scene_.mesh(), view.x, view.y);
     Worth worth;
-    for (const std::uint32_t p : view.polygons) {
+    std::vector<std::uint32_t> over;
+    std::swap(over, view.polygons);
+    for (const std::uint32_t p : over) {
       std::vector<float> shares = seen_from(nodes, normal, p);
+      if (std::ranges::all_of(shares, [](float share) { return share == 0; })) continue;  // its back
+      view.polygons.push_back(p);
       worth.add(question_.lamp[p], nodes, normal, {shares, covered, alpha});
       fill_uncovered(nodes, covered, shares);
       for (const float share : shares)
