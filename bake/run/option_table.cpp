@@ -282,6 +282,16 @@ std::vector<Option> light_options(ImportOptions& import) {
   };
 }
 
+static OptionValue moves(std::vector<MoverMove>& moves) {
+  OptionValue value = each(moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); });
+  value.json = [&moves] {
+    Json all = Json::array();
+    for (const MoverMove& move : moves) all.push_back(text_of(move));
+    return all;
+  };
+  return value;
+}
+
 std::vector<Option> mover_options(ImportOptions& import) {
   return {
       {"--mover", kMovers,
@@ -291,8 +301,7 @@ std::vector<Option> mover_options(ImportOptions& import) {
       {"--move", kMovers,
        "Puts a mover, or the middle of what shines of a node, there (world metres) and turns it about up by degrees, "
        "before anything is computed. May be repeated",
-       each(import.moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); }),
-       Use::kRare, "moves", "lights.md#lamps-that-move"}};
+       moves(import.moves), Use::kRare, "moves", "lights.md#lamps-that-move"}};
 }
 
 std::vector<Option> scene_options(ImportOptions& import, bool& reproducible) {

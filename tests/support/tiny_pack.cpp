@@ -261,8 +261,6 @@ void add_tiny_groups(Pack& pack) {
   }
   pack.light_groups[0].value = 0.5f, pack.light_groups[0].color = Vec3(1, 0.75f, 0.5f);
   pack.light_groups[0].own_color = Vec3(1.5f, 0.875f, 0.5f);
-  pack.light_groups[0].rest = {{1, 2, 3}, {0, 0, 0, 1}};
-  pack.light_groups[0].keys = {{0, {{1, 2, 3}, {0, 0, 0, 1}}}, {2, {{1, 2, 4}, {0, 1, 0, 0}}}};
   const LightmapPage& page = pack.lightmaps[0];
   std::vector<std::vector<LightmapPage>> light(2, {page});
   for (std::size_t g = 0; g < 2; ++g)

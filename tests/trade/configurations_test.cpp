@@ -35,10 +35,14 @@ TEST(Configurations, ShowAMovedLampInEveryWay) {
     EXPECT_EQ(c.play.contains("--move"), live) << c.name();
     EXPECT_EQ(c.bake.contains("--light-groups"), live || c.play.contains("--light")) << c.name();
     EXPECT_FALSE(anew && live) << c.name();
-    if (c.play.contains("--light")) EXPECT_EQ(c.play.at("--light"), "desk lamp=off");
+    if (c.play.contains("--light")) {
+      EXPECT_EQ(c.play.at("--light"), "desk lamp=off");
+    }
   }
   EXPECT_EQ(moved, 7u);
-  for (const Configuration& c : plan_trade(everything(), 0.1, true, "").configurations) EXPECT_FALSE(c.moved);
+  for (const Configuration& c : plan_trade(everything(), 0.1, true, "").configurations) {
+    EXPECT_FALSE(c.moved) << c.name();
+  }
 }
 
 TEST(Configurations, WithoutReflectorsAndMoversVaryTheLightAlone) {

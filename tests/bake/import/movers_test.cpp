@@ -160,7 +160,9 @@ TEST(Movers, LampsArePutElsewhereByTheirMiddle) {
     const std::vector<MoverMove> one{{name, DVec3(0), 0}};
     return move_nodes(one, scene).error().text();
   };
-  EXPECT_NE(refused("lea").find("found \"lea\", expected a mover or a lamp of the scene: \"leaf\""), std::string::npos)
+  EXPECT_NE(
+      refused("lea").find("found \"lea\", expected a mover or a lamp of the scene: the nearest are \"leaf\", \"bulb\""),
+      std::string::npos)
       << refused("lea");
   Gltf animated = with_swinging_lamp();
   animate(animated, 2, "translation", {0, 1}, {0, 0, 0, 1, 0, 0}, "LINEAR");
