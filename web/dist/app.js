@@ -155,6 +155,10 @@ float polygon_share(vec3 v[4], vec3 direction, float angle) {
     inside[i] = size > 0.0 ? clamp(side / max(size * angle, 1e-30), -0.5, 0.5) : 0.5;  // a triangle's last edge has no length
   }
   float share = max(inside[0] + inside[2], 0.0) * max(inside[1] + inside[3], 0.0);
+  if (v[3] == v[2] && angle > 0.0) {  // a triangle's edges have no opposite ones: no more than all of it
+    float way = length(v[0] + v[1] + v[2]) / 3.0;
+    share = min(share, 0.5 * abs(facing) / (way * way * way * angle * angle));
+  }
   return facing > 0.0 ? -share : share;
 }
 `;var qt=`// What is seen at a pixel, as bright lights on movers need it: position, normal, and the mover (1 and up; 0: the scene).
@@ -984,12 +988,19 @@ vec3 light_of_emitters(vec4 lobe) {
 layout(location = 0) out vec4 o_light;
 
 float s_pixel;  // the angle that the pixel sees
+float s_way;    // from the eye to the pixel's point
 
-float share_of_polygon(vec4 lobe, vec3 corners[4]) { return polygon_share(corners, lobe.xyz, s_pixel); }
+// As the eye behind the mirror sees it.
+float share_of_polygon(vec4 lobe, vec3 corners[4]) {
+  vec3 seen[4];
+  for (int i = 0; i < 4; ++i) seen[i] = corners[i] + s_way * lobe.xyz;
+  return polygon_share(seen, lobe.xyz, s_pixel);
+}
 
 void main() {
   vec3 way = normalize(v_position * u_eye.w - u_eye.xyz);
   s_pixel = sqrt(length(cross(dFdx(way), dFdy(way))));
+  s_way = u_eye.w * length(mat3(u_emitters_from_pack) * (v_position - u_eye.xyz));
   float cos_theta = reflector_cosine();
   vec4 mirror = vec4(-sqrt(max(0.0, 1.0 - cos_theta * cos_theta)), 0.0, cos_theta, 0.0);
   o_light = vec4(light_of_emitters(mirror) * reflector_reflectance(cos_theta), 1.0);
