@@ -62,7 +62,7 @@ TEST(Configurations, WithoutReflectorsAndMoversVaryTheLightAlone) {
 }
 
 TEST(Configurations, OfASceneWithEverythingVaryEveryKnob) {
-  const TradePlan plan = plan_trade(everything(), 0.1, false, "");
+  const TradePlan plan = plan_trade(everything(), 0.1, false, "lamp=1,2,3");
   EXPECT_THAT(plan.skipped, IsEmpty());
   for (const char* knob : {"reflections", "views", "maps", "map resolution", "blur", "kernel", "fresnel", "select",
                            "sh bands", "transfer", "mover lights", "shade", "as published"})
