@@ -282,16 +282,6 @@ std::vector<Option> light_options(ImportOptions& import) {
   };
 }
 
-static OptionValue moves(std::vector<MoverMove>& moves) {
-  OptionValue value = each(moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); });
-  value.json = [&moves] {
-    Json all = Json::array();
-    for (const MoverMove& move : moves) all.push_back(text_of(move));
-    return all;
-  };
-  return value;
-}
-
 std::vector<Option> mover_options(ImportOptions& import) {
   return {
       {"--mover", kMovers,

@@ -180,6 +180,16 @@ OptionValue hours(ImportOptions& o) {
           [&o] { return hours_text(o.day); }, [&o] { return Json(hours_text(o.day)); }};
 }
 
+OptionValue moves(std::vector<MoverMove>& moves) {
+  OptionValue value = each(moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); });
+  value.json = [&moves] {
+    Json all = Json::array();
+    for (const MoverMove& move : moves) all.push_back(text_of(move));
+    return all;
+  };
+  return value;
+}
+
 OptionValue profiles(ImportOptions& o) {
   OptionValue value = each(o.ies, "NODE=FILE", parse_ies_option,
                            [](const auto& profile) { return profile.first + "=" + profile.second.string(); });

@@ -33,6 +33,7 @@ OptionValue light_groups(BakeOptions& o);
 OptionValue sky(ImportOptions& o);
 OptionValue day(ImportOptions& o);
 OptionValue hours(ImportOptions& o);
+OptionValue moves(std::vector<MoverMove>& moves);  // --move
 OptionValue profiles(ImportOptions& o);  // --ies
 
 // One that planned and evenly spread viewpoints take alike.
