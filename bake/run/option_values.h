@@ -34,7 +34,7 @@ OptionValue sky(ImportOptions& o);
 OptionValue day(ImportOptions& o);
 OptionValue hours(ImportOptions& o);
 OptionValue moves(std::vector<MoverMove>& moves);  // --move
-OptionValue profiles(ImportOptions& o);  // --ies
+OptionValue profiles(ImportOptions& o);            // --ies
 
 // One that planned and evenly spread viewpoints take alike.
 template <class T>
