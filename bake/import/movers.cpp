@@ -81,8 +81,11 @@ bool shines(const Scene& scene, const Surface& surface) {
 
 // What shines of movers becomes part of the scene that stands still: a lamp, which has the mover's motion if the file
 // animates it. What else the mover has goes on as one then; without an animation it stands still with its lamp.
-void part_lamps(Scene& scene, std::vector<char> has_lamp, Context& context) {
-  std::vector<char> has_body(scene.movers.size());
+// carried: by light the mover that it hangs on, -1: none.
+void part_lamps(Scene& scene, std::span<const std::int32_t> carried, Context& context) {
+  std::vector<char> has_body(scene.movers.size()), has_lamp(has_body);
+  for (const std::int32_t mover : carried)
+    if (mover >= 0) has_lamp[static_cast<std::size_t>(mover)] = 1;
   for (const Surface& surface : scene.surfaces)
     if (surface.mover >= 0) (shines(scene, surface) ? has_lamp : has_body)[static_cast<std::size_t>(surface.mover)] = 1;
   std::vector<std::int32_t> renamed(scene.movers.size(), -1), motions(renamed);
@@ -110,19 +113,21 @@ void part_lamps(Scene& scene, std::vector<char> has_lamp, Context& context) {
     if (shines(scene, surface)) surface.motion = motions[mover];
     surface.mover = surface.motion >= 0 ? -1 : renamed[mover];
   }
-  for (Light& light : scene.lights)
-    if (light.motion >= 0) light.motion = motions[static_cast<std::size_t>(light.motion)];
+  for (std::size_t l = 0; l < carried.size(); ++l)
+    if (carried[l] >= 0) scene.lights[l].motion = motions[static_cast<std::size_t>(carried[l])];
 }
 
-// Whether the light goes along: the sun of a turning node is no lamp that the player could move.
-bool carry_light(const std::string& path, const Vec3& position, std::int32_t mover, Scene& scene) {
-  for (Light& light : scene.lights) {
-    const bool is_it = light.node_path == path && light.position == position && light.motion < 0;  // names may repeat
-    if (!is_it || light.type == LightType::kDirectional) continue;
-    light.motion = mover;  // for now; part_lamps() makes it a lamp's
-    return true;
+// The light of a node, by path and place, since names may repeat; none: ~0. A sun is no lamp that the player could
+// move.
+std::size_t light_of_node(const Scene& scene, const std::string& path, const Vec3& position,
+                          std::span<const std::int32_t> carried) {
+  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    const Light& light = scene.lights[l];
+    if (light.type != LightType::kDirectional && light.node_path == path && light.position == position &&
+        carried[l] < 0)
+      return l;
   }
-  return false;
+  return ~std::size_t{0};
 }
 
 template <class T>
@@ -301,7 +306,7 @@ Status place_movers(const PosedNodes& nodes, std::span<const Animation> animatio
   const auto& [document, poses, movers, numbers] = nodes;
   const gltf::NodeNames names(document);
   scene.movers.resize(movers.nodes.size());
-  std::vector<char> has_lamp(movers.nodes.size());
+  std::vector<std::int32_t> carried(scene.lights.size(), -1);
   for (const NodePose& pose : poses) {
     const std::int32_t mover = movers.of_node[pose.node];
     if (mover < 0) continue;
@@ -313,13 +318,14 @@ Status place_movers(const PosedNodes& nodes, std::span<const Animation> animatio
     }
     if (document.nodes[pose.node].light < 0) continue;
     const Vec3 position(DVec3(pose.world_from_node[3]) - scene.origin);
-    if (!out.keys.empty() && carry_light(names.path(pose.node), position, mover, scene))
-      has_lamp[static_cast<std::size_t>(mover)] = 1;
+    const std::size_t light = light_of_node(scene, names.path(pose.node), position, carried);
+    if (!out.keys.empty() && light < carried.size())
+      carried[light] = mover;
     else
       context.warning(fmt::format("mover \"{}\" carries the light \"{}\": that stays where it is", out.name,
                                   mover_name(document, pose.node)));
   }
-  part_lamps(scene, std::move(has_lamp), context);
+  part_lamps(scene, carried, context);
   return {};
 }
 

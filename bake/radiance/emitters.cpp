@@ -9,7 +9,6 @@
 #include "bake/radiance/sun_emitter.h"
 #include "bake/trace/polygon_light.h"
 #include "bake/trace/sampler.h"
-#include "bake/trace/warp.h"
 #include "formats/core/color.h"
 #include "formats/query/emitter_views.h"
 
@@ -89,20 +88,6 @@ struct LightOnReflector {
   double parted = 0;  // of it, what lobes that see less than the whole lamp may get wrong
 };
 
-Vec3 point_of(const Emitter& polygon, Vec2 u) {
-  const auto& c = polygon.corners;
-  std::size_t second = 1;
-  if (c.size() == 4) {  // the two triangles of the quadrangle by their areas
-    const float a = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])),
-                b = glm::length(glm::cross(c[2] - c[0], c[3] - c[0]));
-    const float first = a / (a + b);
-    if (u.x >= first) second = 2;
-    u.x = std::clamp(second == 1 ? u.x / first : (u.x - first) / (1 - first), 0.0f, 1.0f);
-  }
-  const Vec2 t = square_to_triangle(u);
-  return c[0] + t.x * (c[second] - c[0]) + t.y * (c[second + 1] - c[0]);
-}
-
 class VisibilityBaker {
  public:
   VisibilityBaker(const Accel& accel, const EmitterOptions& options, std::uint64_t seed)
@@ -111,8 +96,7 @@ class VisibilityBaker {
   // Share of the polygon's points over the plane that a point of the plane sees; `few` of them where they agree.
   float share(const Emitter& polygon, std::uint32_t few, const Vec3& node, const Vec3& normal,
               std::uint64_t stream) const {
-    const Vec3 front = glm::cross(polygon.corners[1] - polygon.corners[0], polygon.corners[2] - polygon.corners[0]);
-    if (!polygon.two_sided && glm::dot(node - polygon.corners[0], front) <= 0) return 0;
+    if (!polygon.two_sided && glm::dot(node - polygon.corners[0], front_of(polygon)) <= 0) return 0;
     double seen = 0;
     std::uint32_t over = 0;
     for (std::uint32_t i = 0; i < options_.samples; ++i) {

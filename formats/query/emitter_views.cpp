@@ -14,26 +14,6 @@ namespace {
 constexpr std::uint32_t kRays = 32, kFirstRays = 8;  // to a polygon; the first alone where they agree
 constexpr float kOnEdge = 0.05f;                     // cells by which a node may lie beside a triangle
 
-// The side of the emitter that shines is where this points.
-Vec3 front_of(const Emitter& emitter) {
-  return glm::cross(emitter.corners[1] - emitter.corners[0], emitter.corners[2] - emitter.corners[0]);
-}
-
-// Even over a triangle or quadrangle.
-Vec3 point_of(const Emitter& polygon, Vec2 u) {
-  const auto& c = polygon.corners;
-  std::size_t second = 1;
-  if (c.size() == 4) {  // the two triangles of the quadrangle by their areas
-    const float a = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])),
-                b = glm::length(glm::cross(c[2] - c[0], c[3] - c[0]));
-    const float first = a / std::max(a + b, 1e-30f);
-    if (u.x >= first) second = 2;
-    u.x = std::clamp(second == 1 ? u.x / first : (u.x - first) / (1 - first), 0.0f, 1.0f);
-  }
-  const float root = std::sqrt(u.x);
-  return c[0] + (root * (1 - u.y)) * (c[second] - c[0]) + (root * u.y) * (c[second + 1] - c[0]);
-}
-
 // Over a plane, as a point of it sees the polygon: twice Lambert's vector, steradians times cosine.
 Vec3 vector_of(const Emitter& emitter, const Vec3& point, const Vec3& normal) {
   ClippedPolygon polygon;
@@ -174,6 +154,21 @@ class Viewer {
 };
 
 }  // namespace
+
+Vec3 point_of(const Emitter& polygon, Vec2 u) {
+  const auto& c = polygon.corners;
+  std::size_t second = 1;
+  if (c.size() == 4) {  // the two triangles of the quadrangle by their areas
+    const float a = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])),
+                b = glm::length(glm::cross(c[2] - c[0], c[3] - c[0]));
+    const float first = a / std::max(a + b, 1e-30f);
+    if (u.x >= first) second = 2;
+    u.x = std::clamp(second == 1 ? u.x / first : (u.x - first) / (1 - first), 0.0f, 1.0f);
+  }
+  // Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
+  const Vec2 t = u.y > u.x ? Vec2(0.5f * u.x, u.y - 0.5f * u.x) : Vec2(u.x - 0.5f * u.y, 0.5f * u.y);
+  return c[0] + t.x * (c[second] - c[0]) + t.y * (c[second + 1] - c[0]);
+}
 
 double parted(double seen, double lamp_sr, double alpha) {
   // Of the mirror direction at normal incidence: one over the lobe's density there, D / 4 = 1 / (4 π α²).

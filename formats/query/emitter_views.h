@@ -14,6 +14,13 @@
 
 namespace oriel {
 
+// The side of the polygon that shines is where this points; not unit: the area of a parallelogram.
+inline Vec3 front_of(const Emitter& polygon) {
+  return glm::cross(polygon.corners[1] - polygon.corners[0], polygon.corners[2] - polygon.corners[0]);
+}
+// Even over a triangle or quadrangle. u: in [0, 1)².
+Vec3 point_of(const Emitter& polygon, Vec2 u);
+
 // A closed form times the share of a lamp that a point sees errs where lobes see another share. That share of the
 // lamp's light may: of a reflector with maps, and of one whose image is as fine as the screen, which shows what is
 // hidden.

@@ -164,22 +164,30 @@ std::uint32_t ShadowMesh::triangles_between(const Vec4& place, const Vec4& light
   return count;
 }
 
-ShadowMesh::WholeVolumes ShadowMesh::whole_volumes(const Vec4& light) const {
-  WholeVolumes out;
-  std::vector<Side> sides(triangles_.size());
-  for (std::size_t t = 0; t < sides.size(); ++t) sides[t] = side_of(t, light);
+// The quads of edges from which shadow goes on. turns: by triangle 1 where it faces the light, -1 where not, 0: it
+// throws none.
+void ShadowMesh::add_sides(std::span<const signed char> turns, bool halve, std::vector<std::uint32_t>& indices) const {
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const Edge& edge = edges_[e];
     const std::size_t end = e + 1 < edges_.size() ? edges_[e + 1].first : sides_.size();
     int net = 0;  // how often the triangles, turned to the light, go from a to b, less how often back
-    for (std::size_t i = edge.first; i < end; ++i) {
-      const Side side = sides[sides_[i] / 2];
-      if (side != kEdgeOn) net += (side == kFacing) == (sides_[i] % 2 != 0) ? 1 : -1;
-    }
+    for (std::size_t i = edge.first; i < end; ++i)
+      net += sides_[i] % 2 != 0 ? turns[sides_[i] / 2] : -turns[sides_[i] / 2];
     const std::uint32_t from = 2 * (net > 0 ? edge.a : edge.b), to = 2 * (net > 0 ? edge.b : edge.a);
-    for (int i = std::abs(net); i > 0; --i)
-      out.indices.insert(out.indices.end(), {to, from, from + 1, to, from + 1, to + 1});
+    for (int i = halve && edge.halved ? std::abs(net) / 2 : std::abs(net); i > 0; --i)
+      indices.insert(indices.end(), {to, from, from + 1, to, from + 1, to + 1});
   }
+}
+
+ShadowMesh::WholeVolumes ShadowMesh::whole_volumes(const Vec4& light) const {
+  WholeVolumes out;
+  std::vector<Side> sides(triangles_.size());
+  std::vector<signed char> turns;
+  for (std::size_t t = 0; t < sides.size(); ++t) {
+    sides[t] = side_of(t, light);
+    turns.push_back(sides[t] == kEdgeOn ? 0 : sides[t] == kFacing ? 1 : -1);
+  }
+  add_sides(turns, false, out.indices);
   out.sides = out.indices.size();
   for (std::size_t t = 0; t < sides.size(); ++t) {
     if (sides[t] == kEdgeOn) continue;
@@ -213,16 +221,9 @@ ShadowVolumes ShadowMesh::volumes(const Vec4& light, const Vec4& eye,
   ShadowVolumes out;
   std::vector<char> lit(planes_.size());
   for (std::size_t t = 0; t < lit.size(); ++t) lit[t] = faces(t, light);
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const Edge& edge = edges_[e];
-    const std::size_t end = e + 1 < edges_.size() ? edges_[e + 1].first : sides_.size();
-    int net = 0;  // how often the triangles, turned to the light, go from a to b, less how often back
-    for (std::size_t i = edge.first; i < end; ++i) net += (lit[sides_[i] / 2] != 0) == (sides_[i] % 2 != 0) ? 1 : -1;
-    if (net == 0) continue;
-    const std::uint32_t from = 2 * (net > 0 ? edge.a : edge.b), to = 2 * (net > 0 ? edge.b : edge.a);
-    for (int i = edge.halved ? std::abs(net) / 2 : std::abs(net); i > 0; --i)
-      out.indices.insert(out.indices.end(), {to, from, from + 1, to, from + 1, to + 1});
-  }
+  std::vector<signed char> turns;
+  for (const char facing : lit) turns.push_back(facing != 0 ? 1 : -1);
+  add_sides(turns, true, out.indices);
   std::vector<std::uint32_t> some;
   for (const std::uint32_t t : asked.value_or(std::vector<std::uint32_t>()))
     if (given_[t] != ~0u) some.push_back(given_[t]);

@@ -64,6 +64,7 @@ class ShadowMesh {
     DVec3 normal{0};
     double offset = 0;
   };
+  void add_sides(std::span<const signed char> turns, bool halve, std::vector<std::uint32_t>& indices) const;
   bool faces(std::size_t triangle, const Vec4& from) const;
   Side side_of(std::size_t triangle, const Vec4& light) const;
   bool crossed(std::size_t triangle, const Vec4& place, const Vec4& light, bool lit) const;
