@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "bake/trace/glass.h"
 #include "bake/trace/shading.h"
@@ -14,6 +15,11 @@ namespace {
 // Gauss-Legendre over cos²θ: ∫ R cosθ dω / π = ∫ R d(cos²θ).
 constexpr float kCos2[] = {0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f};
 constexpr float kWeight[] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
+
+Hit hit_on_side(Hit hit, bool front) {
+  hit.front = front;
+  return hit;
+}
 
 double lumens(const Vec3& power) {
   return luminance(DVec3(power));
@@ -29,7 +35,8 @@ class ParticleTracer {
         rays_(rays),
         ray_(particle.ray),
         power_(particle.power),
-        full_(max_component(particle.power)) {}
+        full_(max_component(particle.power)),
+        sharp_(particle.punctual) {}
 
   Fate run(bool from_afar) {
     bool met = !from_afar;
@@ -90,6 +97,7 @@ class ParticleTracer {
     const Shading shading(surface, wi);
     const float u = sampler_.next1();
     const auto sample = shading.sample(u, sampler_.next2());
+    const bool is_sharp = std::exchange(sharp_, false);
     const float cos_i = glm::dot(surface.geometric_normal, wi);
     if (!sample || !(cos_i > 0)) {
       power_ = Vec3(0);
@@ -98,6 +106,11 @@ class ParticleTracer {
     if (sample->lobe == Lobe::kTransmission) {
       power_ *= sample->weight;
       ++passes_;
+      if (is_sharp && t_.lights.frosted().spreads(hit.triangle)) {
+        spread(hit, surface, shading);
+      } else {
+        sharp_ = is_sharp;
+      }
     } else if (sample->lobe == Lobe::kRefraction) {
       power_ *= sample->weight / sample->squeeze;
       ray_.direction = shading.world(*sample);
@@ -118,6 +131,18 @@ class ParticleTracer {
       t_.accel.dropped().add(surface.triangle);
       power_ = Vec3(0);
     }
+  }
+
+  // As an eye beyond the frosted pane sees what it spreads.
+  void spread(const Hit& hit, const SurfacePoint& surface, const Shading& shading) {
+    const Vec3 wi = -ray_.direction;
+    ray_.direction = shading.spread(sampler_.next2());
+    const SurfacePoint seen = surface_at(t_.accel.scene(), hit_on_side(hit, !hit.front), -ray_.direction);
+    const float cos_o = std::abs(glm::dot(seen.normal, ray_.direction)), cos_i = glm::dot(surface.normal, wi);
+    const float pdf = shading.spread_pdf(ray_.direction), passed = 1 - max_component(reflectance(surface.shade, cos_i));
+    const float eyes =
+        Shading(seen, ray_.direction).spread_pdf(wi) * (1 - max_component(reflectance(seen.shade, cos_o)));
+    power_ *= pdf > 0 && passed > 0 ? eyes * cos_o / (pdf * passed * cos_i) : 0;
   }
 
   // f cosθi over the density of wo, as an eye at wo sees light from wi.
@@ -143,6 +168,7 @@ class ParticleTracer {
   Ray ray_;
   Vec3 power_;
   float full_;
+  bool sharp_;  // of a point, spot or sun, straight so far
   Medium medium_;
   int bounces_ = 0, passes_ = 0;
   Fate fate_;

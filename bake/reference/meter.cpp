@@ -97,7 +97,7 @@ Vec3 Meter::sample_punctual(const Place& place, std::uint64_t stream, std::uint3
     const Vec3 value = s.estimate * incidence(place.receiver, s.direction);
     if (!(max_component(value) > 0)) continue;
     ++rays;
-    sum += value * t_.accel.transmittance({place.receiver.position, s.direction, s.distance});
+    sum += value * t_.accel.transmittance({place.receiver.position, s.direction, s.distance, true, false});
   }
   return sum;
 }
@@ -116,6 +116,21 @@ Vec3 Meter::sample_mirrored(const Place& place, std::uint64_t stream, std::uint3
   return sum;
 }
 
+// And by way of frosted panes.
+Vec3 Meter::sample_frosted(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const {
+  const FrostedLights& frosted = t_.lights.frosted();
+  Vec3 sum(0);
+  if (frosted.empty()) return sum;
+  Sampler sampler(context_.seed + 0xf057, stream, k);
+  frosted.choose(sampler.next1(), [&](std::size_t i, float weight) {
+    const Vec2 of_light = sampler.next2();
+    const MirroredSample s = frosted.sample(i, t_.lights, place.receiver.position, {of_light, sampler.next2()});
+    const Vec3 value = s.endless * (weight * incidence(place.receiver, s.direction));
+    if (s.legs > 0 && max_component(value) > 0) sum += value * t_.accel.transmittance_of_all(s.rays(), rays);
+  });
+  return sum;
+}
+
 // The sky's image, combined with cosine-distributed rays by the balance heuristic.
 Vec3 Meter::sample_sky(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const {
   Sampler sampler(context_.seed + 0x5c1, stream, k);
@@ -131,7 +146,8 @@ Vec3 Meter::sample_sky(const Place& place, std::uint64_t stream, std::uint32_t k
 // All but the polygons' direct light.
 IrradianceSample Meter::sample(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const {
   IrradianceSample e;
-  e.direct = sample_punctual(place, stream, k, rays) + sample_mirrored(place, stream, k, rays);
+  e.direct = sample_punctual(place, stream, k, rays) + sample_mirrored(place, stream, k, rays) +
+             sample_frosted(place, stream, k, rays);
   if (t_.lights.samples_sky()) e.direct += sample_sky(place, stream, k, rays);
   Sampler sampler(context_.seed, stream, k);
   const Vec3 local = square_to_cosine_hemisphere(sampler.next2());

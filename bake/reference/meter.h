@@ -63,6 +63,7 @@ class Meter {
   void sample_polygons(const Place& place, std::uint32_t r, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays);
   Vec3 sample_punctual(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const;
   Vec3 sample_mirrored(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const;
+  Vec3 sample_frosted(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const;
   Vec3 sample_sky(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const;
   IrradianceSample sample(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const;
 

@@ -7,6 +7,7 @@
 
 #include "bake/scene/shade.h"
 #include "bake/trace/glass.h"
+#include "bake/trace/planar_mirrors.h"
 #include "formats/core/check.h"
 
 namespace oriel {
@@ -14,13 +15,14 @@ namespace {
 
 constexpr unsigned kOpaqueMask = 1;
 constexpr unsigned kTransmittingMask = 2;
-constexpr unsigned kSolidMask = 4;  // solid glass
-constexpr unsigned kAnyMask = kOpaqueMask | kTransmittingMask | kSolidMask;
+constexpr unsigned kSolidMask = 4;    // solid glass
+constexpr unsigned kFrostedMask = 8;  // flat frosted panes, where there are lights that they spread
+constexpr unsigned kAnyMask = kOpaqueMask | kTransmittingMask | kSolidMask | kFrostedMask;
 constexpr int kPacket = 16;              // rays that Embree traces together
 constexpr float kMoved = 32 * 0x1p-24f;  // of a point's largest coordinate: how far rays start off it
 constexpr int kMaxLayers = 256;  // of transmitting surfaces along one shadow ray: beyond it, it is taken as blocked
 
-// Triangles of one kind (opaque, letting some light through, solid glass) as one Embree geometry.
+// Triangles of one kind (opaque, letting some light through, solid glass, frosted) as one Embree geometry.
 struct Group {
   std::vector<UVec3> indices;
   std::vector<std::uint32_t> triangle;  // primitive → Scene triangle; empty: the same number
@@ -29,7 +31,7 @@ struct Group {
 // What Embree reads as long as its scene lives.
 struct Shape {
   std::vector<Vec3> positions;
-  Group groups[3];
+  Group groups[4];
 };
 
 bool traceable(const Ray& ray, float scale) {
@@ -83,9 +85,12 @@ struct Accel::Impl {
       shape->groups[0].indices = scene->triangles;
       return;
     }
+    std::vector<char> frosted;  // by triangle; empty: none is
+    if (!scene->lights.empty()) frosted = PlanarMirrors::frosted_panes(*scene).triangles_of(*scene);
     for (std::uint32_t t = 0; t < scene->triangles.size(); ++t) {
       if (is_second_twin(t)) continue;
-      Group& group = shape->groups[kind[scene->surfaces[scene->triangle_surface[t]].material]];
+      const std::uint8_t own = kind[scene->surfaces[scene->triangle_surface[t]].material];
+      Group& group = shape->groups[!frosted.empty() && frosted[t] ? 3 : own];
       group.indices.push_back(scene->triangles[t]);
       group.triangle.push_back(t);
     }
@@ -173,7 +178,9 @@ struct Accel::Impl {
   }
 
   // What stands in a shadow ray's way.
-  static unsigned blocking(const Ray& ray) { return ray.past_solids ? kOpaqueMask : kOpaqueMask | kSolidMask; }
+  static unsigned blocking(const Ray& ray) {
+    return kOpaqueMask | (ray.past_solids ? 0 : kSolidMask) | (ray.past_frosted ? 0 : kFrostedMask);
+  }
 
   // Sets bit i where an opaque surface is in the way of ray i.
   unsigned occluded_packet(const Ray* rays, int count) const {
@@ -249,6 +256,7 @@ Result<Accel> Accel::build(const Scene& scene, const AccelOptions& options) {
   impl->add_group(0, kOpaqueMask);
   impl->add_group(1, kTransmittingMask);
   impl->add_group(2, kSolidMask);
+  impl->add_group(3, kFrostedMask);
   rtcCommitScene(impl->rtc_scene);
   if (const RTCError error = rtcGetDeviceError(impl->device); error != RTC_ERROR_NONE)
     return fail(ErrorCode::kRuntime, "Embree", "building the ray accelerator of {} triangles failed: {}",
@@ -328,7 +336,7 @@ Hit Accel::Impl::front_in_its_place(const Hit& back, const Vec3& direction) cons
 }
 
 Vec3 Accel::Impl::through_layers(Ray ray) const {
-  const unsigned mask = ray.past_solids ? kTransmittingMask | kSolidMask : kTransmittingMask;
+  const unsigned mask = kTransmittingMask | (ray.past_solids ? kSolidMask : 0) | (ray.past_frosted ? kFrostedMask : 0);
   StraightGlass glass;
   Vec3 passed(1);
   for (int layer = 0; layer < kMaxLayers; ++layer) {

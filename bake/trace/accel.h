@@ -18,6 +18,9 @@ struct Ray {
   // Of shadow rays: solid glass lets light through unbent, as of lights that no path meets. False: it stands in the
   // way, and paths find what it bends.
   bool past_solids = true;
+  // Flat frosted panes (PlanarMirrors::frosted_panes) let light through straight. False: they stand in the way of it,
+  // and FrostedLights has what they spread.
+  bool past_frosted = true;
 };
 
 struct Hit {

@@ -98,6 +98,19 @@ Vec3 Bsdf::spread(const Vec2& v) const {
   return Vec3(mirrored.x, mirrored.y, -std::abs(mirrored.z));
 }
 
+// By a facet that mirrors it beyond the pane, and by one that turns it to the wrong side.
+float Bsdf::spread_pdf(const Vec3& wi) const {
+  if (wo_.z <= 0 || wi.z >= 0 || point_.alpha < kMirrorAlpha) return 0;
+  const Microfacet facets(FacetModel::kGgx, wide_alpha(point_), point_.alpha);
+  const DVec3 o = glm::normalize(DVec3(wo_));
+  double sum = 0;
+  for (const double z : {-double{wi.z}, double{wi.z}}) {
+    const DVec3 h = o + DVec3(wi.x, wi.y, z);
+    if (h.z > 0) sum += facets.reflected_pdf(o, glm::normalize(h));
+  }
+  return static_cast<float>(sum);
+}
+
 // From within: one facet reflects or refracts all of its light, what its tint takes excepted. No lobe is left to light
 // sampling, since no shadow ray is bent.
 std::optional<BsdfSample> Bsdf::sample_inside(float u, const Vec2& v) const {

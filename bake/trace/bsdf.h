@@ -37,6 +37,8 @@ class Bsdf {
   // Of a thin pane: the direction, below the horizon, whose light its facets send to wo in place of what lies straight
   // behind. It is spread like reflected light, mirrored at the pane (KHR_materials_transmission).
   Vec3 spread(const Vec2& v) const;
+  // The density per steradian with which spread() chooses wi; 0 above the horizon. Of a pane that is not frosted 0.
+  float spread_pdf(const Vec3& wi) const;
 
  private:
   DVec3 facet(const Vec2& v) const;  // a normal of the base lobe that wo sees

@@ -51,7 +51,9 @@ Particle Sources::emit(SourceKind kind, Sampler& sampler) const {
   if (kind == SourceKind::kDirectional) {
     const Choice chosen = choose(directional_cdf_, u);
     const LightSample sun = lights_.sample_light(directional_[chosen.index], Vec3(0), towards);
-    return from_afar(sun.direction, sun.estimate / chosen.probability, through);
+    Particle particle = from_afar(sun.direction, sun.estimate / chosen.probability, through);
+    particle.punctual = true;
+    return particle;
   }
   if (lights_.samples_sky()) {
     const LightSample sky = lights_.sample_sky(towards);

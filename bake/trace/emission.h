@@ -10,7 +10,7 @@ namespace oriel {
 struct Particle {
   Ray ray;
   Vec3 power{0};            // lm
-  bool punctual = false;    // from a point or spot light
+  bool punctual = false;    // from a point, spot or directional light
   bool from_afar = false;   // by the sky or a directional light, through a disk as large as the scene
   std::uint32_t group = 0;  // of lamps, into Scene::light_groups: of a near source
 };

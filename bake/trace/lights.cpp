@@ -46,7 +46,7 @@ LightSample chosen_with(LightSample s, float probability) {
 
 }  // namespace
 
-LightSet::LightSet(const Scene& scene) : scene_(&scene), mirrored_(scene) {
+LightSet::LightSet(const Scene& scene) : scene_(&scene), mirrored_(scene), frosted_(scene) {
   std::vector<BoundedLight> bounds;
   add_triangles(bounds);
   add_lights(bounds);

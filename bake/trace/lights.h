@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bake/trace/accel.h"
+#include "bake/trace/frosted_lights.h"
 #include "bake/trace/light_tree.h"
 #include "bake/trace/punctual.h"
 #include "bake/trace/sky_sampler.h"
@@ -30,7 +31,8 @@ struct LightSample {
 // A directional light with an angular radius is sampled over its disk, uniformly. It counts as a delta light all the
 // same (pdf 0): no ray can meet it, so light sampling alone answers for it, in full.
 //
-// What delta lights send by way of mirrors is no part of sample(): it is asked of mirrored().
+// What delta lights send by way of mirrors is no part of sample(): it is asked of mirrored(). Nor is what frosted panes
+// spread of them, which frosted() has: shadow rays to them end at flat frosted panes (Ray::past_frosted).
 class LightSet {
  public:
   explicit LightSet(const Scene& scene);
@@ -58,6 +60,7 @@ class LightSet {
   float sky_pdf(const Vec3& direction) const { return sky_.pdf(direction); }
   // Point, spot and directional lights in planar mirrors, which no ray meets either.
   const VirtualLights& mirrored() const { return mirrored_; }
+  const FrostedLights& frosted() const { return frosted_; }
 
  private:
   enum class Kind : std::uint8_t { kNear, kDirectional, kSky };
@@ -85,6 +88,7 @@ class LightSet {
   std::vector<double> directional_cdf_;       // cumulative illuminance
   SkySampler sky_;
   VirtualLights mirrored_;
+  FrostedLights frosted_;
   DVec3 power_{0};
 };
 

@@ -1,5 +1,7 @@
 #include "bake/trace/path.h"
 
+#include <utility>
+
 #include "bake/trace/albedo.h"
 #include "bake/trace/glass.h"
 #include "bake/trace/sampled_lights.h"
@@ -24,7 +26,7 @@ class PathTracer {
       : t_(t), sampler_(sampler), rays_(rays), on_diffuse_(on_diffuse), mirrored_(on_diffuse != nullptr) {}
 
   // It is what an eye sees.
-  void show_to_eyes() { eyes_ = true; }
+  void show_to_eyes(bool through_frosted = false) { eyes_ = true, spread_ = through_frosted; }
   // The path goes on by a sample of a surface's lobes.
   void leave(const SurfacePoint& surface, const BsdfSample& sample) {
     const bool refracted = sample.lobe == Lobe::kRefraction;
@@ -162,12 +164,14 @@ class PathTracer {
     const auto sample = shading.sample(u, sampler_.next2());
     if (!sample) return Step::kEnd;
     const bool passes = sample->lobe == Lobe::kTransmission;
-    const Vec3 direction = !passes                 ? shading.world(*sample)
-                           : sees_frosted(surface) ? shading.spread(sampler_.next2())
-                                                   : ray.direction;
+    const bool spreads = passes && sees_frosted(surface);
+    const Vec3 direction = !passes   ? shading.world(*sample)
+                           : spreads ? shading.spread(sampler_.next2())
+                                     : ray.direction;
     leave(surface, *sample);
     throughput_ *= sample->weight;
     if (!(max_component(throughput_) > 0)) return Step::kEnd;
+    if (spreads) light.scattered += glow(surface, shading);
     ray = {spawn_origin(surface, direction), direction};
     // Straight transmission continues the same segment: light sampling from the last vertex sees through glass too.
     if (passes) {
@@ -177,6 +181,12 @@ class PathTracer {
     from_ = ray.origin;
     pdf_ = sample->delta ? 0 : shading.pdf(direction);
     return Step::kBounced;
+  }
+
+  // Panes behind the first one let what shines on it pass straight, and have no glow of their own.
+  Vec3 glow(const SurfacePoint& pane, const Shading& shading) {
+    if (std::exchange(spread_, true)) return Vec3(0);
+    return throughput_ * sample_behind({t_, sampler_, rays_}, pane, shading);
   }
 
   // Beyond a glossy lobe light sampling stands in for a part of what is met, and looks straight through.
@@ -193,6 +203,13 @@ class PathTracer {
           if (t_.book) t_.book->add(LightBook::kScattered, group, throughput_ * from);
           if (t_.listener) t_.listener->add("mirrored lamps", throughput_ * from);
         });
+    sample_frosted(
+        {t_, sampler_, rays_}, surface, [&](const Vec3& wi) { return shading.eval(wi); },
+        [&](const Vec3&, std::uint32_t group, const Vec3& from) {
+          light.scattered += throughput_ * from;
+          if (t_.book) t_.book->add(LightBook::kScattered, group, throughput_ * from);
+          if (t_.listener) t_.listener->add("frosted lamps", throughput_ * from);
+        });
   }
 
   bool survive() {
@@ -206,8 +223,9 @@ class PathTracer {
   Sampler& sampler_;
   std::uint64_t& rays_;
   const OnDiffuse* on_diffuse_;
-  bool eyes_ = false;  // it is what an eye sees: unlit surfaces show, frosted panes blur
-  bool mirrored_;      // no diffuse vertex so far was followed, nor light through frosted glass
+  bool eyes_ = false;    // it is what an eye sees: unlit surfaces show, frosted panes blur
+  bool spread_ = false;  // by a frosted pane
+  bool mirrored_;        // no diffuse vertex so far was followed, nor light through frosted glass
   Vec3 throughput_{1};
   Vec3 from_{0};   // last vertex that chose a direction
   float pdf_ = 0;  // with this density
@@ -233,6 +251,13 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
         light.scattered += mirrored;
         if (t.book) t.book->add(LightBook::kScattered, group, mirrored);
         if (t.listener) t.listener->add("mirrored lamps", mirrored);
+      });
+  sample_frosted(
+      by, surface, [&](const Vec3& wi) { return shading.eval(wi); },
+      [&](const Vec3&, std::uint32_t group, const Vec3& frosted) {
+        light.scattered += frosted;
+        if (t.book) t.book->add(LightBook::kScattered, group, frosted);
+        if (t.listener) t.listener->add("frosted lamps", frosted);
       });
   const float u = sampler.next1();
   const auto sample = shading.sample(u, sampler.next2());
@@ -272,12 +297,13 @@ Vec3 refracted_light(const Transport& t, const SurfacePoint& surface, const Vec3
                      std::uint64_t& rays) {
   const Shading shading(surface, wo);
   PathTracer path(t, sampler, rays);
-  path.show_to_eyes();
+  path.show_to_eyes(is_frosted_pane(surface.shade));
   if (is_frosted_pane(surface.shade)) {
     const Vec3 direction = shading.spread(sampler.next2());
     const Vec3 passed =
         surface.shade.transmission * (1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, wo))));
-    return path.follow({spawn_origin(surface, direction), direction}, 0, 1, passed).scattered;
+    return passed * sample_behind({t, sampler, rays}, surface, shading) +
+           path.follow({spawn_origin(surface, direction), direction}, 0, 1, passed).scattered;
   }
   const auto sample = shading.refracted(sampler.next2());
   if (!sample || !(max_component(sample->weight) > 0)) return Vec3(0);
@@ -326,6 +352,13 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
         s.direct += mirrored;
         if (t.listener) t.listener->add("mirrored lamps", mirrored);
         if (directional) add_moments(mirrored / shading.cosine(from), from);
+      });
+  sample_frosted(
+      by, surface, [&](const Vec3& wi) { return Vec3(shading.cosine(wi)); },
+      [&](const Vec3& from, std::uint32_t, const Vec3& frosted) {
+        s.direct += frosted;
+        if (t.listener) t.listener->add("frosted lamps", frosted);
+        if (directional) add_moments(frosted / shading.cosine(from), from);
       });
   const Vec2 u = sampler.next2();
   const Vec3 direction = shading.above(directional ? square_to_linear_hemisphere(u) : square_to_cosine_hemisphere(u));

@@ -22,6 +22,18 @@ bool may_mirror(const SceneMaterial& m) {
   return coat || (m.roughness < kMirrorRoughness && !black);
 }
 
+bool is_frosted_glass(const SceneMaterial& m) {
+  const bool thin = m.transmission > 0 && m.metallic < 1 && !m.solid && m.metal == Metal::kNone && !m.unlit;
+  const bool even = m.normal_texture.image < 0 && m.metallic_roughness_texture.image < 0 && m.gloss_texture.image < 0;
+  return thin && even && m.alpha_mode == AlphaMode::kOpaque && m.roughness >= kMirrorRoughness;
+}
+
+std::vector<char> materials_that(const Scene& scene, bool (*is)(const SceneMaterial&)) {
+  std::vector<char> out(scene.materials.size());
+  for (std::size_t m = 0; m < out.size(); ++m) out[m] = is(scene.materials[m]);
+  return out;
+}
+
 bool is_flat(const Scene& scene, std::uint32_t triangle, const Vec3& normal) {
   for (int k = 0; k < 3; ++k)
     if (glm::dot(scene.normals[scene.triangles[triangle][k]], normal) < 1 - kFlat) return false;
@@ -69,19 +81,45 @@ Vec3 mirror_reflectance(const ShadePoint& point, float cos_theta) {
   return point.coverage * f;
 }
 
+double mirror_margin(const Scene& scene, std::uint32_t triangle, const Vec3& from, double cosine) {
+  float magnitude = max_component(glm::abs(from));
+  for (int k = 0; k < 3; ++k)
+    magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[scene.triangles[triangle][k]])));
+  return double{magnitude} * 64 * 0x1p-24 / std::max(cosine, 1e-4);
+}
+
 PlanarMirrors::PlanarMirrors(const Scene& scene) {
-  std::vector<char> mirrors(scene.materials.size());
-  for (std::size_t m = 0; m < mirrors.size(); ++m) mirrors[m] = may_mirror(scene.materials[m]);
-  if (std::ranges::find(mirrors, 1) == mirrors.end()) return;
+  collect(scene, materials_that(scene, may_mirror), false);
+}
+
+PlanarMirrors PlanarMirrors::frosted_panes(const Scene& scene) {
+  PlanarMirrors panes;
+  panes.collect(scene, materials_that(scene, is_frosted_glass), true);
+  return panes;
+}
+
+std::vector<char> PlanarMirrors::triangles_of(const Scene& scene) const {
+  std::vector<char> out(empty() ? 0 : scene.triangles.size());
+  for (const PlanarMirror& mirror : mirrors_)
+    for (const std::uint32_t t : mirror.triangles) {
+      out[t] = 1;
+      if (!scene.twin.empty() && scene.twin[t] != ~0u) out[scene.twin[t]] = 1;
+    }
+  return out;
+}
+
+void PlanarMirrors::collect(const Scene& scene, const std::vector<char>& of_material, bool both_sides) {
+  if (std::ranges::find(of_material, 1) == of_material.end()) return;
   const double size = std::max(1e-30, double{scene.radius()});
   std::map<PlaneKey, PlanarMirror> planes;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const Surface& surface = scene.surfaces[scene.triangle_surface[t]];
-    if (!mirrors[surface.material] || surface.mover >= 0) continue;
+    if (!of_material[surface.material] || surface.mover >= 0) continue;
+    if (both_sides && !scene.twin.empty() && scene.twin[t] < t) continue;  // the other has both
     const Vec3 front = geometric_normal(scene, t);
     if (!is_flat(scene, t, front)) continue;
     for (const double side : {1.0, -1.0}) {
-      if (side < 0 && !scene.materials[surface.material].double_sided) continue;
+      if (side < 0 && !both_sides && !scene.materials[surface.material].double_sided) continue;
       const DVec3 normal = side * DVec3(front);
       const double offset = glm::dot(normal, DVec3(scene.positions[scene.triangles[t].x]));
       PlaneKey key;

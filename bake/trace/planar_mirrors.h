@@ -1,4 +1,5 @@
-// Flat surfaces that reflect as mirrors do: mirrors, panes, polished floors under a smooth coat.
+// Flat surfaces that reflect as mirrors do: mirrors, panes, polished floors under a smooth coat. And frosted panes,
+// which mirror light too, spread by facets, to their other side.
 #pragma once
 
 #include <array>
@@ -12,6 +13,10 @@ namespace oriel {
 // What of light passes into the mirror direction of a surface, per channel: F of lobes and coats narrower than
 // kMirrorAlpha, [0,1]. 0 where all of them are wider.
 Vec3 mirror_reflectance(const ShadePoint& point, float cos_theta);
+
+// By how many metres a ray from there ends before a mirror: a pane would else stand in the way of its own light. As
+// offset_origin reckons. cosine: to the mirror's normal.
+double mirror_margin(const Scene& scene, std::uint32_t triangle, const Vec3& from, double cosine);
 
 // Triangles in one plane, connected or not, that reflect on the side of the normal: the panes of a window wall are one.
 struct PlanarMirror {
@@ -35,6 +40,9 @@ class PlanarMirrors {
 
   PlanarMirrors() = default;
   explicit PlanarMirrors(const Scene& scene);
+  // Flat frosted panes instead (is_frosted_pane), by both sides: opaque in their alpha, of one roughness, without solid
+  // glass. Their mirror_reflectance() is 0.
+  static PlanarMirrors frosted_panes(const Scene& scene);
 
   bool empty() const { return mirrors_.empty(); }
   std::size_t size() const { return mirrors_.size(); }
@@ -46,6 +54,8 @@ class PlanarMirrors {
     Vec2 barycentric;
   };
   std::optional<On> on(const Scene& scene, std::size_t mirror, const DVec3& p) const;
+  // By triangle of the scene, whether it or its twin is in one of them; empty where there are none.
+  std::vector<char> triangles_of(const Scene& scene) const;
 
  private:
   // Which triangles a part of a mirror's plane may hold.
@@ -57,6 +67,8 @@ class PlanarMirrors {
     std::vector<std::uint32_t> triangle;
   };
   static Grid grid_of(const Scene& scene, const PlanarMirror& mirror);
+  // of_material: which materials count; both_sides: of one-sided surfaces too.
+  void collect(const Scene& scene, const std::vector<char>& of_material, bool both_sides);
 
   std::vector<PlanarMirror> mirrors_;
   std::vector<Grid> grids_;  // by mirror

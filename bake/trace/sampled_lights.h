@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/trace/path.h"
+#include "bake/trace/shading.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -47,7 +48,7 @@ FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const 
   const bool lamp = light.near || (light.sun && is_polished(t.accel.scene().material_of(surface.triangle)));
   if (!(light.distance > 0)) return {value, lamp, light.group, light.direction};  // touching
   ++rays;
-  const Ray ray{origin, light.direction, light.distance, light.pdf == 0};
+  const Ray ray{origin, light.direction, light.distance, light.pdf == 0, light.pdf > 0};
   return {value * t.accel.transmittance(ray), lamp, light.group, light.direction};
 }
 
@@ -56,6 +57,23 @@ inline void book(const Transport& t, LightBook::Kind kind, std::uint32_t group, 
   if (!t.book) return;
   each_owner(t.accel.scene(), group, direction, light,
              [&](std::uint32_t owner, const Vec3& part) { t.book->add(kind, owner, part); });
+}
+
+// What a frosted pane's facets send towards wo of one point, spot or sun behind it, as shading.spread() would have it;
+// other frosted panes let it pass straight.
+inline Vec3 sample_behind(const Tracing& by, const SurfacePoint& pane, const Shading& shading) {
+  const Transport& t = by.transport;
+  const float u = by.sampler.next1();
+  const Vec2 v = by.sampler.next2();
+  if (t.accel.scene().lights.empty()) return Vec3(0);
+  const Vec3 origin = spawn_origin(pane, -pane.geometric_normal);
+  const LightSample light = t.lights.sample(origin, u, v);
+  if (light.pdf > 0 || !(max_component(light.estimate) > 0)) return Vec3(0);
+  const Vec3 value = light.estimate * shading.spread_pdf(light.direction);
+  if (!is_usable(value)) t.accel.dropped().add(pane.triangle);
+  if (!is_usable(value) || !(max_component(value) > 0)) return Vec3(0);
+  ++by.rays;
+  return value * t.accel.transmittance({origin, light.direction, light.distance});
 }
 
 // The same of lights in mirrors, which no other strategy finds, by way of so many at most. add(direction, group,
@@ -79,6 +97,27 @@ void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mi
     if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
     if (!is_usable(value) || max_component(value) <= 0) return;
     value *= t.accel.transmittance_of_all(light.rays(), rays);
+    if (max_component(value) > 0) add(light.direction, light.group, value);
+  });
+}
+
+// The same of lights that frosted panes spread. add(direction, group, light).
+template <class Reflect, class Add>
+void sample_frosted(const Tracing& by, const SurfacePoint& surface, const Reflect& reflect, const Add& add) {
+  const Transport& t = by.transport;
+  Sampler& sampler = by.sampler;
+  const FrostedLights& frosted = t.lights.frosted();
+  if (frosted.empty()) return;
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  frosted.choose(sampler.next1(), [&](std::size_t i, float weight) {
+    if (!frosted.may_reach(i, DVec3(origin), 0)) return;
+    const Vec2 of_light = sampler.next2();
+    const MirroredSample light = frosted.sample(i, t.lights, origin, {of_light, sampler.next2()});
+    if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;
+    Vec3 value = weight * light.endless * reflect(light.direction);
+    if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
+    if (!is_usable(value) || max_component(value) <= 0) return;
+    value *= t.accel.transmittance_of_all(light.rays(), by.rays);
     if (max_component(value) > 0) add(light.direction, light.group, value);
   });
 }

@@ -41,6 +41,11 @@ class Shading {
   std::optional<BsdfSample> refracted(const Vec2& v) const { return bsdf().refracted(v); }
   // As Bsdf::spread(), as a world direction below the geometric surface.
   Vec3 spread(const Vec2& v) const { return below(bsdf().spread(v)); }
+  // Per steradian, of what spread() chooses; wi: any direction.
+  float spread_pdf(const Vec3& wi) const {
+    if (glm::dot(wi, surface_.geometric_normal) >= 0) return 0;
+    return both(wi, [&](const Vec3& w) { return bsdf().spread_pdf(w); });
+  }
   static float cosine_of(const Vec3& w) { return std::max(0.0f, w.z); }
   float cosine(const Vec3& wi) const { return both(wi, cosine_of); }
 

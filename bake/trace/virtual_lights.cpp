@@ -6,15 +6,6 @@
 namespace oriel {
 namespace {
 
-// Rays end a little before a mirror: a pane would else stand in the way of its own reflection. As offset_origin
-// reckons.
-double margin(const Scene& scene, std::uint32_t triangle, const Vec3& from, double cosine) {
-  float magnitude = max_component(glm::abs(from));
-  for (int k = 0; k < 3; ++k)
-    magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[scene.triangles[triangle][k]])));
-  return double{magnitude} * 64 * 0x1p-24 / std::max(cosine, 1e-4);
-}
-
 // A ray that goes on from mirror to mirror.
 class Walk {
  public:
@@ -35,7 +26,7 @@ class Walk {
       const Vec3 reflected = mirror_reflectance(shade_point(scene_, on->triangle, on->barycentric), cos_theta);
       sample_.share *= reflected;
       endless_ *= glm::max(reflected, mirror_reflectance(mirror.shade, cos_theta));
-      add_leg(mirror.height(DVec3(from_)) / cosine - margin(scene_, on->triangle, from_, cosine));
+      add_leg(mirror.height(DVec3(from_)) / cosine - mirror_margin(scene_, on->triangle, from_, cosine));
       direction_ = mirror.turned(direction_);
       from_ = spawn_origin(scene_, on->triangle, on->barycentric, Vec3(direction_));
     } else {

@@ -42,6 +42,7 @@ void DirectGroup::run(DirectSums& sums) {
     return d_.t_.lights.sample(p.site.origin, u, sampler.next2());
   };
   if (d_.many_punctual_) sample_punctual(any);
+  if (!d_.t_.lights.frosted().empty()) sample_frosted();
   if (!d_.closed_form_) sample_lights(any);
   if (d_.closed_form_ && d_.t_.lights.samples_sky())
     sample_lights([&](const Point&, Sampler& sampler) { return d_.t_.lights.sample_sky(sampler.next2()); });
@@ -168,7 +169,7 @@ void DirectGroup::aim_at_punctual(std::uint32_t l) {
     const Vec3 value = s.estimate * incidence(point.site.receiver(), s.direction);
     if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
     tallies_[point.texel].open[point.half] += value;
-    shoot(p, {point.site.origin, s.direction, s.distance}, value);
+    shoot(p, {point.site.origin, s.direction, s.distance, true, false}, value);
   }
 }
 
@@ -192,6 +193,27 @@ void DirectGroup::aim_at_mirrored(std::uint32_t i) {
     rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
     shots_.push_back({p, value, s.direction, kNoGroup, s.legs, s.share});
   }
+}
+
+// Light that flat frosted panes spread has neither a closed form nor sharp shadows.
+void DirectGroup::sample_frosted() {
+  const FrostedLights& frosted = d_.t_.lights.frosted();
+  for (std::uint64_t pick = 0; pick < kFrosted; ++pick)
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      Sampler sampler(d_.seed_ + seeds::kFrostedLight + pick, stream_of(list_[point.texel], point.half), point.k);
+      frosted.choose(sampler.next1(), [&](std::size_t i, float weight) {
+        if (!frosted.may_reach(i, DVec3(point.site.origin), 0)) return;
+        const Vec2 of_light = sampler.next2();
+        const MirroredSample s = frosted.sample(i, d_.t_.lights, point.site.origin, {of_light, sampler.next2()});
+        const float share = weight * incidence(point.site.receiver(), s.direction) / static_cast<float>(kFrosted);
+        const Vec3 value = s.endless * share;
+        if (s.legs == 0 || !(max_component(value) > 0) || !is_usable(point, value)) return;
+        rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
+        shots_.push_back({p, value, s.direction, s.group, s.legs});
+      });
+    }
+  finish_sampled();
 }
 
 void DirectGroup::shoot(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group) {
@@ -307,7 +329,7 @@ void DirectGroup::sample_punctual(const Sample& sample) {
       if (s.pdf > 0) continue;  // an emissive surface, or the sky
       const Vec3 value = s.estimate * (incidence(point.site.receiver(), s.direction) / static_cast<float>(kPicks));
       if (max_component(value) > 0 && is_usable(point, value))
-        shoot(p, {point.site.origin, s.direction, s.distance}, value, s.group);
+        shoot(p, {point.site.origin, s.direction, s.distance, true, false}, value, s.group);
     }
   finish_sampled();
 }

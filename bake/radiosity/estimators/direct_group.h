@@ -11,7 +11,8 @@ namespace oriel {
 // A group of texels, light by light.
 class DirectGroup {
  public:
-  static constexpr std::uint64_t kPicks = 16;  // of many punctual lights, by how bright they are from each point
+  static constexpr std::uint64_t kFrosted = 4;  // samples a point: what panes spread is noise from one
+  static constexpr std::uint64_t kPicks = 16;   // of many punctual lights, by how bright they are from each point
 
   // directional: run() is asked for moments.
   DirectGroup(const DirectLight& direct, std::span<const std::uint32_t> list, std::uint32_t per_half, bool directional);
@@ -61,6 +62,7 @@ class DirectGroup {
   std::pair<DVec3, double> sphere_about_points() const;
   // A mirror's edge is taken for one of a shadow: what is beside it weighs as if the mirror were endless.
   void aim_at_mirrored(std::uint32_t i);
+  void sample_frosted();
   void shoot(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group = kNoGroup);
   void receive(const Shot& shot, const Vec3& passed);
   void trace();

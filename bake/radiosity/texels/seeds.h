@@ -18,6 +18,7 @@ inline constexpr std::uint64_t kSurvival = 0x50b1;       // rays that find out h
 inline constexpr std::uint64_t kPolygonLight = 0xd1ec;   // + the light's number: points on it
 inline constexpr std::uint64_t kSharpLight = 0x9f00;     // + the light's number: points of punctual lights with a size
 inline constexpr std::uint64_t kMirroredLight = 0x3177;  // + its number: the same of those seen in mirrors
+inline constexpr std::uint64_t kFrostedLight = 0xf057;   // + the sample's number: which panes, and points of them
 inline constexpr std::uint64_t kSky = 0x50f;             // directions of a sky image
 inline constexpr std::uint64_t kManyLights = 0x9e11;     // + the pick's number: which of many lights
 inline constexpr std::uint64_t kFramePixels = 0xf4a3e;   // what eyes look at, for the stated error

@@ -1,0 +1,157 @@
+#include "bake/trace/frosted_lights.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "bake/trace/lights.h"
+#include "bake/trace/shading.h"
+#include "bake/trace/warp.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr double kInPlane = 1e-6;      // of the scene's size: a light in a pane's plane shines through it nowhere
+constexpr double kLeastSpread = 1e-3;  // of a light that touches its pane
+
+// What one pane spreads of a light to a receiver, by points of the pane: as light would be spread that comes from
+// there, to the receiver, about where it would pass straight. Nearer to the light all is as much narrower.
+class SpreadLobe {
+ public:
+  // towards: unit, from the receiver to the light. left: of that way, from the pane to the light.
+  SpreadLobe(const PlanarMirror& pane, const DVec3& from, const DVec3& towards, double left)
+      : pane_(pane),
+        from_(from),
+        height_(pane.height(from)),
+        crossing_(from + height_ / -glm::dot(pane.normal, towards) * towards),
+        left_(left),
+        world_from_local_(frame_from_normal(Vec3(-pane.normal))),
+        shade_(pane.shade),
+        lobe_(shade_, glm::transpose(world_from_local_) * Vec3(towards)) {
+    shade_.anisotropy = 0;
+  }
+  SpreadLobe(const SpreadLobe&) = delete;
+  SpreadLobe& operator=(const SpreadLobe&) = delete;
+
+  // A point of the pane's plane; nothing where the lobe misses it.
+  std::optional<DVec3> point(const Vec2& v) const {
+    const DVec3 wide = -DVec3(glm::normalize(world_from_local_ * lobe_.spread(v)));
+    const double cosine = -glm::dot(pane_.normal, wide);
+    if (!(cosine > 0)) return std::nullopt;
+    return crossing_ + left_ * (from_ + height_ / cosine * wide - crossing_);
+  }
+  // With which density a point of the plane is chosen, per m².
+  double density(const DVec3& point) const {
+    const DVec3 leg = crossing_ + (point - crossing_) / left_ - from_;
+    const double length = glm::length(leg), cosine = height_ / length;
+    const float pdf = lobe_.spread_pdf(glm::transpose(world_from_local_) * Vec3(-leg / length));
+    return pdf * cosine / (length * length) / (left_ * left_);
+  }
+
+ private:
+  const PlanarMirror& pane_;
+  DVec3 from_;
+  double height_;
+  DVec3 crossing_;
+  double left_;
+  Mat3 world_from_local_;
+  ShadePoint shade_;
+  Bsdf lobe_;
+};
+
+}  // namespace
+
+FrostedLights::FrostedLights(const Scene& scene) : scene_(&scene) {
+  if (scene.lights.empty()) return;
+  panes_ = PlanarMirrors::frosted_panes(scene);
+  triangles_ = panes_.triangles_of(scene);
+  const double in_plane = kInPlane * std::max(1e-30, double{scene.radius()});
+  for (std::size_t m = 0; m < panes_.size(); ++m) {
+    areas_.emplace_back();
+    double area = 0;
+    for (const std::uint32_t t : panes_[m].triangles) areas_.back().push_back(area += triangle_area(scene, t));
+  }
+  double sum = 0;
+  for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
+    const Light& light = scene.lights[l];
+    const bool afar = light.type == LightType::kDirectional;
+    for (std::uint16_t m = 0; m < panes_.size(); ++m) {
+      const PlanarMirror& pane = panes_[m];
+      // Of a sun's disk a part may be behind the pane where its centre is not.
+      const double low = std::sin(double{light.angular_radius_rad});
+      const double behind =
+          afar ? glm::dot(pane.normal, DVec3(light.direction)) + low : -pane.height(DVec3(light.position));
+      if (!(behind > (afar ? 0 : in_plane))) continue;
+      const double size = std::sqrt(pane.area_m2);
+      const double own = afar ? luminance(light.intensity) * pane.area_m2 * behind
+                              : luminance(Vec3(punctual_power(scene, light))) * pane.area_m2 /
+                                    (pane.area_m2 + behind * behind + size * behind);
+      if (!(own > 0)) continue;
+      ways_.push_back({l, m});
+      cumulative_.push_back(sum += own);
+    }
+  }
+}
+
+MirroredSample FrostedLights::sample(std::size_t i, const LightSet& lights, const Vec3& p, const Chosen& chosen) const {
+  MirroredSample sample;
+  const PlanarMirror& pane = panes_[ways_[i].pane];
+  const DVec3 from(p);
+  const double height = pane.height(from);
+  // Its own surface gets none of what it spreads.
+  if (!(height > 2 * mirror_margin(*scene_, pane.triangles.front(), p, 1))) return sample;
+  const LightSample straight = lights.sample_light(ways_[i].light, p, chosen.light);
+  const DVec3 towards(straight.direction);
+  const double cosine = -glm::dot(pane.normal, towards);
+  // A spot sends nothing this way, but maybe to a part of the pane: its estimate is asked there.
+  if (!(cosine > 0)) return sample;
+  const bool afar = scene_->lights[ways_[i].light].type == LightType::kDirectional;
+  const double all = afar ? 0 : glm::distance(from, DVec3(scene_->lights[ways_[i].light].position));
+  const double left = afar ? 1 : std::max(kLeastSpread, (all - height / cosine) / all);
+  const SpreadLobe lobe(pane, from, towards, left);
+  // Where the lobe is, or anywhere on the pane: the one knows wide panes, the other small and far ones.
+  std::optional<PlanarMirrors::On> on;
+  if (chosen.facet.x >= 0.5f) {
+    on = point_by_area(ways_[i].pane, {2 * chosen.facet.x - 1, chosen.facet.y});
+  } else if (const auto point = lobe.point({2 * chosen.facet.x, chosen.facet.y})) {
+    on = panes_.on(*scene_, ways_[i].pane, *point);
+  }
+  if (!on) return sample;
+  const DVec3 on_plane(point_on(*scene_, on->triangle, on->barycentric));
+  const double per_m2 = 0.5 * (lobe.density(on_plane) + 1 / pane.area_m2);
+  const DVec3 leg = on_plane - from;
+  const double length = glm::length(leg);
+  const DVec3 direction = leg / length;
+  const double leg_cosine = -glm::dot(pane.normal, direction);
+  const bool front = glm::dot(DVec3(geometric_normal(*scene_, on->triangle)), pane.normal) > 0;
+  const SurfacePoint surface =
+      surface_at(*scene_, {on->triangle, static_cast<float>(length), on->barycentric, front}, Vec3(direction));
+  const LightSample light = lights.sample_light(ways_[i].light, Vec3(on_plane), chosen.light);
+  const Shading shading(surface, -Vec3(direction));
+  const float facets = shading.spread_pdf(light.direction);
+  const Vec3 passed = surface.shade.transmission *
+                      (1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, -Vec3(direction)))));
+  const auto weight = static_cast<float>(facets * leg_cosine / (length * length * per_m2));
+  sample.direction = Vec3(direction), sample.group = light.group;
+  sample.endless = light.estimate * passed * weight;
+  if (!(max_component(sample.endless) > 0)) return sample;
+  sample.share = Vec3(1);
+  const double margin = mirror_margin(*scene_, on->triangle, p, leg_cosine);
+  const auto add_leg = [&](const Ray& ray) { sample.leg[static_cast<std::size_t>(sample.legs++)] = ray; };
+  if (length > margin) add_leg({p, sample.direction, static_cast<float>(length - margin), true, false});
+  add_leg({spawn_origin(*scene_, on->triangle, on->barycentric, light.direction), light.direction, light.distance});
+  return sample;
+}
+
+std::optional<PlanarMirrors::On> FrostedLights::point_by_area(std::size_t pane, const Vec2& v) const {
+  const std::vector<double>& areas = areas_[pane];
+  const double at = double{v.y} * areas.back();
+  const std::size_t k =
+      std::min<std::size_t>(std::upper_bound(areas.begin(), areas.end(), at) - areas.begin(), areas.size() - 1);
+  const double before = k > 0 ? areas[k - 1] : 0, own = areas[k] - before;
+  if (!(own > 0)) return std::nullopt;
+  const auto rest = static_cast<float>(std::clamp((at - before) / own, 0.0, 1.0));
+  return PlanarMirrors::On{panes_[pane].triangles[k], square_to_triangle({v.x, rest})};
+}
+
+}  // namespace oriel

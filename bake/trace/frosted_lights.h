@@ -1,0 +1,77 @@
+// Point, spot and directional lights behind flat frosted panes: what a pane's facets spread of them to its other side,
+// which no path meets. Each light is spread once, by the pane nearest to who receives it; the panes beyond let it pass
+// straight.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "bake/trace/planar_mirrors.h"
+#include "bake/trace/virtual_lights.h"
+
+namespace oriel {
+
+// The lights of a scene by way of the panes that they shine on. A scene without panes or without lights has none. Holds
+// a reference to the scene; immutable.
+class FrostedLights {
+ public:
+  FrostedLights() = default;
+  explicit FrostedLights(const Scene& scene);
+
+  // One light by way of one pane.
+  struct Way {
+    std::uint32_t light = 0;  // into Scene::lights
+    std::uint16_t pane = 0;   // into panes(), on the side away from the light
+  };
+  bool empty() const { return ways_.empty(); }
+  std::size_t size() const { return ways_.size(); }
+  const Way& operator[](std::size_t i) const { return ways_[i]; }
+  const PlanarMirrors& panes() const { return panes_; }
+  // Whether a triangle is of a pane that spreads light.
+  bool spreads(std::uint32_t triangle) const { return !triangles_.empty() && triangles_[triangle] != 0; }
+
+  // False where way number i brings no light to any point of a sphere.
+  bool may_reach(std::size_t i, const DVec3& centre, double radius) const {
+    return panes_[ways_[i].pane].height(centre) > -radius;
+  }
+
+  // Numbers that choose how light comes: a point of a sun's disk, and a facet of the pane.
+  struct Chosen {
+    Vec2 light{0}, facet{0};
+  };
+  // Light by way number i at p, by one point of the pane: `endless` is an unbiased estimate of the irradiance on a
+  // plane that faces `direction`, with nothing in the way, `share` 1. No legs: none came. `lights` are the scene's.
+  MirroredSample sample(std::size_t i, const LightSet& lights, const Vec3& p, const Chosen& chosen) const;
+
+  // Calls visit(i, weight) for ways whose weighted light is on average all light: for all of a few, for kVisited of
+  // more. u in [0, 1).
+  template <class Visit>
+  void choose(float u, const Visit& visit) const {
+    if (ways_.size() <= kVisited) {
+      for (std::size_t i = 0; i < ways_.size(); ++i) visit(i, 1.0f);
+      return;
+    }
+    for (std::size_t k = 0; k < kVisited; ++k) {
+      const double at = (static_cast<double>(k) + u) / kVisited * cumulative_.back();
+      const std::size_t i = std::min<std::size_t>(
+          std::upper_bound(cumulative_.begin(), cumulative_.end(), at) - cumulative_.begin(), ways_.size() - 1);
+      const double own = cumulative_[i] - (i > 0 ? cumulative_[i - 1] : 0);
+      visit(i, static_cast<float>(cumulative_.back() / (kVisited * own)));
+    }
+  }
+
+ private:
+  static constexpr std::size_t kVisited = 16;
+
+  std::optional<PlanarMirrors::On> point_by_area(std::size_t pane, const Vec2& v) const;
+
+  const Scene* scene_ = nullptr;
+  PlanarMirrors panes_;
+  std::vector<Way> ways_;
+  std::vector<char> triangles_;
+  std::vector<std::vector<double>> areas_;  // by pane: cumulative, of its triangles, m²
+  std::vector<double> cumulative_;          // luminance that panes get, lm
+};
+
+}  // namespace oriel
