@@ -29,6 +29,7 @@ class Planner {
     configurations_.push_back(default_);
     light();
     reflections();
+    passes();
     movers();
     moved_lamp();
     no_bake();
@@ -74,6 +75,13 @@ class Planner {
     }
   }
 
+  // Lamps in passes over indirect light.
+  void passes() {
+    const Settings published{{"--method", "diefenbach1997"}};
+    add("as published", "passes", published, published, "all of Diefenbach & Badler 1997");
+    configurations_.back().in_passes = true;
+  }
+
   void reflections() {
     if (!facts_.planar && !facts_.curved) {
       skip("views, map resolution, reflections, maps, blur, kernel, fresnel",
@@ -102,7 +110,7 @@ class Planner {
     for (const std::string& views : either({"16"}, {"4", "16", "64"}))
       add("views", "hemisphere:" + views, {{"--views", "hemisphere:" + views}}, {}, "uniform hemisphere (Bastos 1999)");
     const Settings published{{"--method", "bastos1999"}};
-    add("as published", "", published, published, "all of Bastos 1999");
+    add("as published", "maps", published, published, "all of Bastos 1999");
     for (const std::string& maps : either({"1"}, {"1", "4", "8"})) add("maps", maps, maps_baked, {{"--maps", maps}});
     if (!quick_) add("select", "distance", maps_baked, {{"--select", "distance"}}, "nearest eye (Bastos 1999)");
   }

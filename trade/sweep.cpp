@@ -159,9 +159,10 @@ class Sweep {
 
   Status measure_pack(Row& row) {
     const Configuration& c = row.configuration;
-    ORIEL_TRY(const std::string reference, c.moved ? "" : texel_reference(c.bake.at("--texel")));
+    const bool texels = !c.moved && !c.in_passes;
+    ORIEL_TRY(const std::string reference, texels ? texel_reference(c.bake.at("--texel")) : "");
     const std::string key = bake_key(c.bake, o_.seed, reference);
-    if (!units_.counting() && !c.moved && !fs::exists(pack(reference))) return {};  // no time for it
+    if (!units_.counting() && texels && !fs::exists(pack(reference))) return {};  // no time for it
     ORIEL_TRY(row.measures,
               units_.once("bake", "bake " + c.name(), key, [&] { return bake(key, c.bake, o_.seed, reference); }));
     if (!trade_.frames || (!units_.counting() && !row.measures.bake)) return {};

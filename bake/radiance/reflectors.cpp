@@ -86,37 +86,6 @@ float open_share(const Accel& accel, const PlanarPatch& patch, const DVec3& norm
   return static_cast<float>(open) / kOpenRays;
 }
 
-FoundReflector make_reflector(const Scene& scene, const PlanarPatch& patch, bool front) {
-  FoundReflector found;
-  found.triangles = patch.triangles;
-  const DVec3 z = front ? patch.normal : -patch.normal;
-  // x as level as it can be, so that "aligned with the world" has a meaning in any plane.
-  const DVec3 up = std::abs(z.y) < 0.99 ? DVec3(0, 1, 0) : DVec3(0, 0, -1);
-  const DVec3 level = glm::normalize(glm::cross(up, z)), ascent = glm::cross(z, level);
-  std::vector<DVec2> points;
-  points.reserve(3 * patch.triangles.size());
-  for (const std::uint32_t t : patch.triangles)
-    for (int corner = 0; corner < 3; ++corner) {
-      const DVec3 p(scene.positions[scene.triangles[t][corner]]);
-      points.emplace_back(glm::dot(p, level), glm::dot(p, ascent));
-    }
-  const Rectangle r = tight_rectangle(points, DVec2(1, 0));
-  const DVec3 x = r.axis.x * level + r.axis.y * ascent, y = glm::cross(z, x);
-  const DVec2 middle = 0.5 * (r.lower + r.upper), half = 0.5 * (r.upper - r.lower);
-  const DVec3 origin = middle.x * x + middle.y * y + (front ? patch.offset : -patch.offset) * z;
-
-  Reflector& out = found.reflector;
-  const Surface& surface = scene.surfaces[scene.triangle_surface[patch.triangles.front()]];
-  out.name = surface.name;
-  out.material = surface.material;
-  out.pack_from_reflector = Mat4(Vec4(Vec3(x), 0), Vec4(Vec3(y), 0), Vec4(Vec3(z), 0), Vec4(Vec3(origin), 1));
-  out.lower = Vec2(-half);
-  out.upper = Vec2(half);
-  out.area_m2 = static_cast<float>(patch.area_m2);
-  out.flatness_m = static_cast<float>(patch.flatness_m);
-  return found;
-}
-
 // The sides of a patch from which it reflects; false where neither sees anything.
 bool add_sides(const Accel& accel, const PlanarPatch& patch, const ReflectorMaterial& material,
                const ReflectorOptions& options, std::vector<FoundReflector>& out) {
@@ -154,6 +123,37 @@ double importance(const FoundReflector& f) {
 }
 
 }  // namespace
+
+FoundReflector make_reflector(const Scene& scene, const PlanarPatch& patch, bool front) {
+  FoundReflector found;
+  found.triangles = patch.triangles;
+  const DVec3 z = front ? patch.normal : -patch.normal;
+  // x as level as it can be, so that "aligned with the world" has a meaning in any plane.
+  const DVec3 up = std::abs(z.y) < 0.99 ? DVec3(0, 1, 0) : DVec3(0, 0, -1);
+  const DVec3 level = glm::normalize(glm::cross(up, z)), ascent = glm::cross(z, level);
+  std::vector<DVec2> points;
+  points.reserve(3 * patch.triangles.size());
+  for (const std::uint32_t t : patch.triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      const DVec3 p(scene.positions[scene.triangles[t][corner]]);
+      points.emplace_back(glm::dot(p, level), glm::dot(p, ascent));
+    }
+  const Rectangle r = tight_rectangle(points, DVec2(1, 0));
+  const DVec3 x = r.axis.x * level + r.axis.y * ascent, y = glm::cross(z, x);
+  const DVec2 middle = 0.5 * (r.lower + r.upper), half = 0.5 * (r.upper - r.lower);
+  const DVec3 origin = middle.x * x + middle.y * y + (front ? patch.offset : -patch.offset) * z;
+
+  Reflector& out = found.reflector;
+  const Surface& surface = scene.surfaces[scene.triangle_surface[patch.triangles.front()]];
+  out.name = surface.name;
+  out.material = surface.material;
+  out.pack_from_reflector = Mat4(Vec4(Vec3(x), 0), Vec4(Vec3(y), 0), Vec4(Vec3(z), 0), Vec4(Vec3(origin), 1));
+  out.lower = Vec2(-half);
+  out.upper = Vec2(half);
+  out.area_m2 = static_cast<float>(patch.area_m2);
+  out.flatness_m = static_cast<float>(patch.flatness_m);
+  return found;
+}
 
 float reflectance_at_60_deg(const ReflectorMaterial& m) {
   return max_component(glm::mix(m.f0, Vec3(m.f90), Vec3(fresnel_weight(m.curve, 0.5))));

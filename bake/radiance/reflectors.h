@@ -8,6 +8,7 @@
 
 #include "bake/brdf/fresnel.h"
 #include "bake/jobs/context.h"
+#include "bake/radiance/patches.h"
 #include "bake/trace/accel.h"
 #include "formats/assets/fields.h"
 #include "formats/assets/radiance_map.h"
@@ -60,6 +61,9 @@ struct FoundReflector {
 inline void fields(Archive& archive, FoundReflector& f) {
   archive(f.reflector, f.triangles, f.reflectance, f.roughness, f.shown_sr, f.emitters, f.way, f.why);
 }
+
+// One side of a patch, with the frame that find_reflectors() tells of.
+FoundReflector make_reflector(const Scene& scene, const PlanarPatch& patch, bool front);
 
 struct FoundReflectors {
   std::vector<FoundReflector> reflectors;  // most important first

@@ -1,6 +1,8 @@
 // The scene as a pack holds it.
 #pragma once
 
+#include <span>
+
 #include "bake/atlas/atlas.h"
 #include "bake/material/materials.h"
 #include "formats/pack/pack.h"
@@ -13,6 +15,9 @@ struct AssembledMesh {
   std::vector<std::uint32_t> first_index;    // by scene triangle: its entries in mesh.indices start here
   std::vector<std::uint32_t> index_count{};  // likewise: so many, where triangles are divided; empty: three each
 };
+
+// A scene's triangles in mesh.indices.
+std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<const std::uint32_t> triangles);
 
 // Vertices are split where lightmap coordinates part; parts are runs of one surface on one page, in the scene's order.
 AssembledMesh assemble_mesh(const Scene& scene, const Atlas& atlas);

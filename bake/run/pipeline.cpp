@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "bake/jobs/parallel.h"
-#include "bake/run/assemble.h"
 #include "bake/run/fit_maps.h"
 #include "bake/run/forecast.h"
+#include "bake/run/frosted_panes.h"
 #include "bake/run/group_light.h"
 #include "bake/run/inputs.h"
 #include "bake/run/lamps.h"
@@ -267,7 +267,7 @@ class Bake {
     const Interruptible until(context_, [&] { return context_.finish || budget_.left() <= writing; });
     auto made = bake_reflections(task(), planned_, materials_, mesh_);
     if (made || made.error().code != ErrorCode::kStopped || context_.stop) return made;
-    pack().emitters.clear();
+    pack().emitters.clear(), pack().frosted_panes.clear();
     const Warning why =
         context_.finish
             ? Warning("left out, the user asked the bake to finish")
@@ -276,7 +276,6 @@ class Bake {
     return mirror_geometry(std::move(planned_), mesh_, why, pack());
   }
 
-  // The light that movers meet.
   Status make_light_field() {
     if (!wants_light_field()) {
       if (options_.with_transfer)
@@ -303,6 +302,7 @@ class Bake {
 
   Status assemble() {
     context_.foretell("writing", 0);
+    ORIEL_TRY_VOID(list_frosted_panes(task(), mesh_, result_.omissions));
     if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
     assemble_scene(scene(), std::move(materials_), std::move(mesh_), pack());
     for (Material& material : pack().materials)

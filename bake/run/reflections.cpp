@@ -190,14 +190,6 @@ Status judge(const LitSurroundings& lit, std::span<const RadianceMap> maps, cons
   return {};
 }
 
-std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<const std::uint32_t> triangles) {
-  std::vector<std::uint32_t> indices;
-  for (const std::uint32_t t : triangles)
-    for (std::uint32_t i = 0; i < (mesh.index_count.empty() ? 3 : mesh.index_count[t]); ++i)
-      indices.push_back(mesh.mesh.indices[mesh.first_index[t] + i]);
-  return indices;
-}
-
 // leave_out_emitters() as a unit of work.
 Status leave_out_lamps(const BakeTask& bake, const std::vector<float>& lobe_widths,
                        std::vector<FoundReflector>& reflectors, std::vector<Warning>& omissions) {

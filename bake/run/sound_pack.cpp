@@ -37,6 +37,7 @@ void remove_reflectors(Pack& pack) {
   pack.radiance_maps.clear();
   pack.map_meshes.clear();
   pack.emitters.clear();
+  pack.frosted_panes.clear();
   pack.reflected_sets = {};
   for (LightGroup& group : pack.light_groups) group.reflectors.clear(), group.emitters.clear();
 }
@@ -78,7 +79,9 @@ const std::array<Removable, 15>& removables() {
       {"normal maps", {kNormalTextureSection}, remove_normal_textures},
       {"solid glass", {kSolidSection}, [](Pack& pack) { pack.solids.clear(); }},
       {"emission textures", {kEmissionTextureSection}, [](Pack& pack) { pack.emission_textures.clear(); }},
-      {"radiance maps", {kReflectorSection, kRadianceMapSection, kMapMeshSection, kEmitterSection}, remove_reflectors},
+      {"radiance maps",
+       {kReflectorSection, kRadianceMapSection, kMapMeshSection, kEmitterSection, kFrostedPaneSection},
+       remove_reflectors},
       {"surround maps", {kCurvedReflectorSection, kSurroundMapSection}, remove_curved_reflectors},
       {"kernels", {kKernelSection}, remove_kernels},
       {"cameras", {kCameraSection}, [](Pack& pack) { pack.cameras.clear(); }},

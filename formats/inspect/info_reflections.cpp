@@ -36,6 +36,18 @@ Json reflectors_json(const Pack& pack) {
   return out;
 }
 
+Json frosted_panes_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& pane : pack.frosted_panes)
+    out.push_back({{"name", pane.name},
+                   {"material", pane.material},
+                   {"area_m2", pane.area_m2},
+                   {"lit_from", triple(Vec3(pane.pack_from_reflector[2]))},
+                   {"emitters", pane.emitters},
+                   {"visibility_nodes", {pane.visibility_x, pane.visibility_y}}});
+  return out;
+}
+
 Json radiance_maps_json(const Pack& pack) {
   Json out = Json::array();
   for (const auto& map : pack.radiance_maps) {
@@ -116,6 +128,11 @@ void print_planar(const PackIndex& index, const Pack& pack) {
     fmt::print("reflector {}: '{}', {:.4g} m2, material {}, {}{}\n", i, r.name, r.area_m2, r.material, way,
                r.emitters.empty() ? "" : fmt::format(", {} emitters in closed form", r.emitters.size()));
   }
+  for (std::size_t i = 0; i < pack.frosted_panes.size(); ++i) {
+    const auto& pane = pack.frosted_panes[i];
+    fmt::print("frosted pane {}: '{}', {:.4g} m2, material {}, {} emitters shine on it\n", i, pane.name, pane.area_m2,
+               pane.material, pane.emitters.size());
+  }
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const auto& map = pack.radiance_maps[i];
     const auto s = summarise(map);
@@ -153,6 +170,7 @@ Json triple(const Vec3& v) {
 
 void add_reflections(const PackIndex& index, const Pack& pack, Json& out) {
   out["reflectors"] = reflectors_json(pack);
+  out["frosted_panes"] = frosted_panes_json(pack);
   out["radiance_maps"] = radiance_maps_json(pack);
   out["radiance_map_bytes_per_pixel"] = radiance_bytes_per_pixel(index, pack);
   out["emitters"] = emitters_json(pack);

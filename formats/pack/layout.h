@@ -87,6 +87,7 @@ inline constexpr std::uint32_t kReflectorSection = fourcc("RFLT");
 inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
 inline constexpr std::uint32_t kMapMeshSection = fourcc("MMSH");
 inline constexpr std::uint32_t kEmitterSection = fourcc("EMIT");
+inline constexpr std::uint32_t kFrostedPaneSection = fourcc("PANE");
 inline constexpr std::uint32_t kCurvedReflectorSection = fourcc("CRFL");
 inline constexpr std::uint32_t kSurroundMapSection = fourcc("SMAP");
 inline constexpr std::uint32_t kKernelSection = fourcc("KERN");
@@ -104,7 +105,7 @@ inline constexpr std::uint32_t kPageGroupsSection = fourcc("GLMP");
 inline constexpr std::uint32_t kDaySection = fourcc("DAYH");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 30> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 31> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -120,6 +121,7 @@ inline constexpr std::array<SectionKind, 30> kSectionKinds = {{
     {kRadianceMapSection, "radiance map", false, false, true},
     {kMapMeshSection, "map mesh", true, false, true},
     {kEmitterSection, "emitters", true, false, false},
+    {kFrostedPaneSection, "frosted panes", true, false, false},
     {kCurvedReflectorSection, "curved reflectors", true, false, false},
     {kSurroundMapSection, "surround map", true, false, true},
     {kKernelSection, "kernels", false, false, false},

@@ -53,6 +53,9 @@ struct Pack {
   std::vector<RadianceMap> radiance_maps;
   std::vector<MapMesh> map_meshes;  // of each radiance map, or none
   std::vector<Emitter> emitters;    // that reflectors show in closed form
+  // Lit sides of flat frosted panes, z towards the light: their emitters are what shines on them, which eyes behind see
+  // spread. Without maps.
+  std::vector<Reflector> frosted_panes;
   std::vector<CurvedReflector> curved_reflectors;
   std::vector<SurroundMap> surround_maps;
   std::vector<BrdfKernel> kernels;

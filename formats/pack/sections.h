@@ -92,6 +92,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.each(kRadianceMapSection, pack.radiance_maps);
   v.each(kMapMeshSection, pack.map_meshes);
   v.list(kEmitterSection, pack.emitters);
+  v.list(kFrostedPaneSection, pack.frosted_panes);
   v.list(kCurvedReflectorSection, pack.curved_reflectors);
   v.each(kSurroundMapSection, pack.surround_maps);
   v.list(kKernelSection, pack.kernels);

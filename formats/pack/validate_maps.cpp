@@ -54,8 +54,7 @@ void check_validity(int number, const std::vector<std::uint8_t>& valid, IssueLis
       number, "pixels of validity", valid, [](std::uint8_t v) { return v <= 2; }, "0, 1 or 2");
 }
 
-void validate_reflector(const Pack& pack, std::size_t i, IssueList& list) {
-  const Reflector& r = pack.reflectors[i];
+void validate_reflector(const Pack& pack, std::size_t i, const Reflector& r, IssueList& list) {
   if (r.material >= pack.materials.size())
     list.error(401, "reflector {} ('{}'): found material {}, expected less than {}", i, r.name, r.material,
                pack.materials.size());
@@ -191,7 +190,14 @@ void validate_pixels(const LightmapPage& page, IssueList& list) {
 
 void validate_reflectors(const Pack& pack, IssueList& list) {
   list.in_section(kReflectorSection);
-  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) validate_reflector(pack, i, list);
+  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) validate_reflector(pack, i, pack.reflectors[i], list);
+  list.in_section(kFrostedPaneSection);
+  for (std::size_t i = 0; i < pack.frosted_panes.size(); ++i) {
+    const Reflector& pane = pack.frosted_panes[i];
+    validate_reflector(pack, i, pane, list);
+    if (pane.map_count > 0)
+      list.error(430, "frosted pane {} ('{}'): found {} radiance maps, expected none", i, pane.name, pane.map_count);
+  }
 }
 
 void validate_radiance_maps(const Pack& pack, ImagePixels pixels, IssueList& all) {

@@ -36,6 +36,24 @@ bool is_convex_polygon(const std::vector<Vec3>& corners) {
 }
 
 using ElementKey = std::pair<std::uint32_t, std::uint32_t>;  // reflector and element
+
+// What a reflector or a frosted pane lists of the emitters, and what its nodes see of them.
+void validate_listed(const Pack& pack, std::size_t i, const Reflector& r, IssueList& list) {
+  const auto bad = std::count_if(r.emitters.begin(), r.emitters.end(),
+                                 [&](std::uint32_t emitter) { return emitter >= pack.emitters.size(); });
+  if (bad > 0 || r.emitters.size() > kMaxReflectorEmitters)
+    list.error(423, "reflector {} ('{}'): found {} emitters, {} of them out of range, expected at most {} below {}", i,
+               r.name, r.emitters.size(), bad, kMaxReflectorEmitters, pack.emitters.size());
+  const bool sides = r.emitters.empty() ? r.visibility_x == 0 && r.visibility_y == 0
+                                        : within(static_cast<float>(r.visibility_x), 2, kMaxSide) &&
+                                              within(static_cast<float>(r.visibility_y), 2, kMaxSide);
+  if (!sides || r.visibility.size() != std::size_t{r.visibility_x} * r.visibility_y * r.emitters.size())
+    list.error(424,
+               "reflector {} ('{}'): found {} shares of visibility for {} emitters on {} x {} nodes, expected their "
+               "product and at least 2 x 2 nodes",
+               i, r.name, r.visibility.size(), r.emitters.size(), r.visibility_x, r.visibility_y);
+}
+
 }  // namespace
 
 void validate_elements(const Pack& pack, IssueList& list) {
@@ -98,22 +116,9 @@ void validate_emitters(const Pack& pack, IssueList& list) {
       list.error(422, "emitter {}: found radiance {}, expected finite numbers from 0 up", i, text_of(e.radiance));
   }
   list.in_section(kReflectorSection);
-  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
-    const Reflector& r = pack.reflectors[i];
-    const auto bad = std::count_if(r.emitters.begin(), r.emitters.end(),
-                                   [&](std::uint32_t emitter) { return emitter >= pack.emitters.size(); });
-    if (bad > 0 || r.emitters.size() > kMaxReflectorEmitters)
-      list.error(423, "reflector {} ('{}'): found {} emitters, {} of them out of range, expected at most {} below {}",
-                 i, r.name, r.emitters.size(), bad, kMaxReflectorEmitters, pack.emitters.size());
-    const bool sides = r.emitters.empty() ? r.visibility_x == 0 && r.visibility_y == 0
-                                          : within(static_cast<float>(r.visibility_x), 2, kMaxSide) &&
-                                                within(static_cast<float>(r.visibility_y), 2, kMaxSide);
-    if (!sides || r.visibility.size() != std::size_t{r.visibility_x} * r.visibility_y * r.emitters.size())
-      list.error(424,
-                 "reflector {} ('{}'): found {} shares of visibility for {} emitters on {} x {} nodes, expected their "
-                 "product and at least 2 x 2 nodes",
-                 i, r.name, r.visibility.size(), r.emitters.size(), r.visibility_x, r.visibility_y);
-  }
+  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) validate_listed(pack, i, pack.reflectors[i], list);
+  list.in_section(kFrostedPaneSection);
+  for (std::size_t i = 0; i < pack.frosted_panes.size(); ++i) validate_listed(pack, i, pack.frosted_panes[i], list);
 }
 
 void validate_kernel_fits(const Pack& pack, IssueList& list) {

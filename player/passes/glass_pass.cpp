@@ -29,7 +29,6 @@ constexpr std::ptrdiff_t kMostWindows = 4;  // bodies of a frame that have one, 
 constexpr float kLeastBend = 8;             // pixels by which glass shifts things, for that
 constexpr int kLooks = 32, kPaneLooks = 12, kCoarseLooks = 4;  // of a lobe
 
-// As OpenGL has the faces of a cube.
 Camera face_camera(const Vec3& eye, int face) {
   Camera camera;
   camera.eye = eye;
@@ -64,7 +63,6 @@ float share_of_picture(const NdcRect& rect) {
   return 0.25f * size.x * size.y;
 }
 
-// Whole pixels around it, and one more.
 void scissor_to(const NdcRect& rect, const View& view) {
   const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
   const IVec2 lower(glm::floor((glm::clamp(rect.lower, -1.0f, 1.0f) * 0.5f + 0.5f) * size));
@@ -89,6 +87,7 @@ Status GlassPass::compile() {
   ORIEL_TRY(surface_, gpu::Program::create("glass_surface", dialect_));
   ORIEL_TRY(light_, gpu::Program::create("screen_glass", dialect_));
   ORIEL_TRY(glass_, gpu::Program::create("glass", dialect_));
+  ORIEL_TRY(glow_, PaneGlow::create(dialect_));
   ORIEL_TRY(shape_, gpu::Program::create("glass_shape", dialect_));
   ORIEL_TRY(copy_, gpu::Program::create("screen_behind", dialect_));
   no_vertices_ = gpu::make_vertex_array();
@@ -385,6 +384,7 @@ Status GlassPass::draw(const FrameContext& context, const ScenePass& scene_pass,
   shaded_.bind(0);
   scene.bind_geometry();
   for (const DrawRange& range : body.ranges) draw_indices(range.first_index, range.index_count, stats);
+  if (blurs(scene.pack().materials[body.material], options)) glow_.draw(context, body);
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "player/passes/glass_window.h"
+#include "player/passes/pane_glow.h"
 #include "player/passes/scene_pass.h"
 #include "player/passes/targets.h"
 
@@ -54,6 +55,7 @@ class GlassPass {
 
   gpu::Dialect dialect_{};
   gpu::Program shape_, copy_, surface_, light_, glass_;
+  PaneGlow glow_;
   gpu::VertexArray no_vertices_;
   std::vector<Body> bodies_;  // by GpuScene::glass()
   std::uint64_t geometry_of_ = 0;

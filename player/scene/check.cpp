@@ -55,12 +55,17 @@ void check_tables(const Pack& pack, Limits& limits) {
 }
 
 void check_reflectors(const Pack& pack, Limits& limits) {
+  const auto check_nodes = [&](const std::string& where, const Reflector& r) {
+    limits.side(where, std::max<std::uint64_t>(r.visibility_x, r.visibility_y * std::uint64_t{r.emitters.size()}));
+  };
+  for (std::size_t i = 0; i < pack.frosted_panes.size(); ++i)
+    check_nodes(fmt::format("frosted pane {} '{}'", i, pack.frosted_panes[i].name), pack.frosted_panes[i]);
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
     const Reflector& r = pack.reflectors[i];
     const std::string where = fmt::format("reflector {} '{}'", i, r.name);
+    check_nodes(where, r);
     for (const ReflectorElement& element : group_by_element(r, pack.radiance_maps))
       limits.at_most(where, "maps of one element", element.maps.size(), limits.layer_limit());
-    limits.side(where, std::max<std::uint64_t>(r.visibility_x, r.visibility_y * std::uint64_t{r.emitters.size()}));
   }
 }
 

@@ -171,6 +171,28 @@ std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint
   return bodies;
 }
 
+void find_lit_sides(const Pack& pack, std::vector<std::uint32_t>& indices, std::span<GlassBody> bodies) {
+  if (pack.frosted_panes.empty()) return;
+  std::vector<std::uint32_t> body_of(pack.mesh.positions.size(), ~0u);
+  for (std::uint32_t b = 0; b < bodies.size(); ++b)
+    for (const DrawRange& range : bodies[b].ranges)
+      for (std::uint32_t i = 0; bodies[b].pane && i < range.index_count; ++i)
+        body_of[indices[range.first_index + i]] = b;
+  for (std::uint32_t p = 0; p < pack.frosted_panes.size(); ++p) {
+    const std::vector<std::uint32_t>& own = pack.frosted_panes[p].indices;
+    for (std::size_t i = 0; i + 2 < own.size(); i += 3) {
+      if (body_of[own[i]] == ~0u) continue;
+      std::vector<LitSide>& lit = bodies[body_of[own[i]]].lit;
+      const auto end = static_cast<std::uint32_t>(indices.size());
+      const bool goes_on =
+          !lit.empty() && lit.back().pane == p && lit.back().first_index + lit.back().index_count == end;
+      if (!goes_on) lit.push_back({p, end, 0});
+      lit.back().index_count += 3;
+      indices.insert(indices.end(), {own[i], own[i + 1], own[i + 2]});
+    }
+  }
+}
+
 bool is_inside(const GlassBody& body, const Mesh& mesh, std::span<const std::uint32_t> indices, const Vec3& point) {
   if (glm::any(glm::lessThan(point, body.bounds.lower)) || glm::any(glm::greaterThan(point, body.bounds.upper)))
     return false;

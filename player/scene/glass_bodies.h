@@ -16,6 +16,12 @@ inline constexpr float kClearGlass = 0.02f;
 // Planes of a body at most; with more it is taken as curved (shaders/passes/glass.frag has as many).
 inline constexpr std::size_t kMaxBodyPlanes = 24;
 
+// The part of one of Pack::frosted_panes that is a body's.
+struct LitSide {
+  std::uint32_t pane = 0;
+  std::uint32_t first_index = 0, index_count = 0;
+};
+
 struct GlassBody {
   std::uint32_t material = 0;  // into Pack::materials
   std::uint32_t solid = 0;     // into Pack::solids
@@ -26,6 +32,7 @@ struct GlassBody {
   // Convex polyhedra: xyz the outward normal, inside where dot(xyz, p) + w <= 0. None: curved.
   std::vector<Vec4> planes;
   std::vector<DrawRange> ranges;  // a lightmap page each
+  std::vector<LitSide> lit;       // of a frosted pane
 };
 
 // Connected surfaces of `ranges`' triangles that are of solid materials become bodies where they are star-shaped about
@@ -33,6 +40,9 @@ struct GlassBody {
 // `ranges` keeps what is none: other materials, clear panes, and hollow or branched glass.
 std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint32_t>& indices,
                                          std::vector<DrawRange>& ranges);
+
+// What of the pack's frosted panes is whose, their triangles appended to the indices that ranges are of.
+void find_lit_sides(const Pack& pack, std::vector<std::uint32_t>& indices, std::span<GlassBody> bodies);
 
 // Whether a point is inside of a body, by the solid angle of its triangles (Van Oosterom and Strackee 1983). indices:
 // those that its ranges are of.

@@ -104,6 +104,7 @@ void GpuScene::upload_geometry() {
   // Of both sides of a shell, which are as far away, the inside is drawn first: from outside it lies behind.
   std::ranges::stable_partition(transparent_, [&](const DrawRange& r) { return faces_inward(mesh, indices, r); });
   glass_ = take_glass_bodies(pack_, indices, transparent_);
+  find_lit_sides(pack_, indices, glass_);
   make_reflectors(indices, known && !pack_.reflected_sets.empty() &&
                                pack_.reflected_sets.made_for == reflected_hash(pack_.visible_sets, pack_.reflectors));
   make_emitters(indices);
@@ -175,29 +176,37 @@ std::span<const DrawRange> GpuScene::bind_curved(const GpuCurvedReflector& refle
   return {&reflector.triangles, 1};
 }
 
+// Where it is, and what it shows in closed form.
+GpuReflector GpuScene::placed(const Reflector& r, std::uint32_t index) const {
+  GpuReflector out;
+  out.index = index;
+  out.material = r.material;
+  out.pack_from_reflector = r.pack_from_reflector;
+  const Mat3 rotation = glm::transpose(Mat3(r.pack_from_reflector));
+  out.reflector_from_pack = Mat4(rotation);
+  out.reflector_from_pack[3] = Vec4(-(rotation * Vec3(r.pack_from_reflector[3])), 1);
+  const Vec2 corners[] = {r.lower, {r.upper.x, r.lower.y}, r.upper, {r.lower.x, r.upper.y}};
+  for (int c = 0; c < 4; ++c) out.corners[c] = Vec3(r.pack_from_reflector * Vec4(corners[c], 0, 1));
+  out.size = glm::length(r.upper - r.lower);
+  out.listed = r.emitters;
+  out.emitters = upload_emitters(pack_, listed_by(r), out.reflector_from_pack, out.size);
+  return out;
+}
+
 void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices, bool sets_known) {
   for (std::uint32_t i = 0; i < pack_.reflectors.size(); ++i) {
     const Reflector& r = pack_.reflectors[i];
-    GpuReflector out;
-    out.index = i;
-    out.material = r.material;
+    GpuReflector out = placed(r, i);
     out.first_index = static_cast<std::uint32_t>(indices.size());
     out.index_count = static_cast<std::uint32_t>(r.indices.size());
     indices.insert(indices.end(), r.indices.begin(), r.indices.end());
-    out.pack_from_reflector = r.pack_from_reflector;
-    const Mat3 rotation = glm::transpose(Mat3(r.pack_from_reflector));
-    out.reflector_from_pack = Mat4(rotation);
-    out.reflector_from_pack[3] = Vec4(-(rotation * Vec3(r.pack_from_reflector[3])), 1);
-    const Vec2 corners[] = {r.lower, {r.upper.x, r.lower.y}, r.upper, {r.lower.x, r.upper.y}};
-    for (int c = 0; c < 4; ++c) out.corners[c] = Vec3(r.pack_from_reflector * Vec4(corners[c], 0, 1));
-    out.size = glm::length(r.upper - r.lower);
     out.elements = group_by_element(r, pack_.radiance_maps);
     if (out.elements.empty()) out.mean_distance = mean_height(pack_.mesh, out.reflector_from_pack);
     if (sets_known) out.seen = seen_in(pack_, i);
-    out.listed = r.emitters;
-    out.emitters = upload_emitters(pack_, listed_by(r), out.reflector_from_pack, out.size);
     reflectors_.push_back(std::move(out));
   }
+  for (std::uint32_t i = 0; i < pack_.frosted_panes.size(); ++i)
+    frosted_panes_.push_back(placed(pack_.frosted_panes[i], i));
 }
 
 Result<bool> GpuScene::may_show_maps(const GpuReflector& reflector) {

@@ -110,6 +110,8 @@ class GpuScene {
     return is_inside(body, pack_.mesh, indices_, point);
   }
   const std::vector<GpuReflector>& reflectors() const { return reflectors_; }
+  // By Pack::frosted_panes: their lit sides, without triangles (GlassBody::lit).
+  const std::vector<GpuReflector>& frosted_panes() const { return frosted_panes_; }
   const std::vector<GpuCurvedReflector>& curved_reflectors() const { return curved_reflectors_; }
   // What an eye there may see of groups of opaque triangles; nothing where the pack does not know.
   SeenMask seen_from(const Vec3& eye) const { return seen_groups_.from(eye); }
@@ -197,12 +199,14 @@ class GpuScene {
   void upload_geometry();
   void upload_images(std::shared_ptr<const DeferredImages> deferred, const LoadingOptions& loading);
   void keep_texels();
+  GpuReflector placed(const Reflector& reflector, std::uint32_t index) const;
   void make_reflectors(std::vector<std::uint32_t>& indices, bool sets_known);
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   void begin_fewer();
   void move_lamps(std::span<const MoverPose> poses);
-  void list_emitters(GpuReflector& reflector) const;
+  // views: lamps that have moved are seen from it, too.
+  void list_emitters(GpuReflector& reflector, const Reflector& baked, bool views) const;
   MapFactors factors_of_maps() const;
   Pack pack_;
   std::uint64_t serial_ = 0, geometry_serial_ = 0;
@@ -211,7 +215,7 @@ class GpuScene {
   std::vector<DrawRange> opaque_, transparent_;
   std::vector<GlassBody> glass_;
   std::vector<std::vector<DrawRange>> emitters_;
-  std::vector<GpuReflector> reflectors_;
+  std::vector<GpuReflector> reflectors_, frosted_panes_;
   std::vector<GpuCurvedReflector> curved_reflectors_;
   std::vector<GpuMover> movers_;
   gpu::VertexArray vertex_array_;

@@ -57,14 +57,14 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
   baked_.shine(lights_, pack_);
   if (places != lamps_) move_lamps(places);
   bright_lights_ = placed_lights(pack_, lamps_);
-  for (GpuReflector& r : reflectors_) list_emitters(r);
+  for (GpuReflector& r : reflectors_) list_emitters(r, pack_.reflectors[r.index], true);
+  for (GpuReflector& pane : frosted_panes_) list_emitters(pane, pack_.frosted_panes[pane.index], false);
   return images_->set_lights(lights_, factors_of_maps(), live_->changes(lights_));
 }
 
 // Those of lamps that have moved where they are seen from now, once that is known; until then maps and images have
 // them.
-void GpuScene::list_emitters(GpuReflector& reflector) const {
-  const Reflector& baked = pack_.reflectors[reflector.index];
+void GpuScene::list_emitters(GpuReflector& reflector, const Reflector& baked, bool views) const {
   ListedEmitters listed = listed_by(baked);
   std::vector<std::uint8_t> visibility;
   reflector.listed.clear();
@@ -80,7 +80,7 @@ void GpuScene::list_emitters(GpuReflector& reflector) const {
   const std::size_t nodes = std::size_t{baked.visibility_x} * baked.visibility_y;
   for (std::size_t k = 0; k < baked.emitters.size(); ++k)
     if (!has_moved(baked.emitters[k])) add(baked.emitters[k], listed.visibility.subspan(k * nodes, nodes));
-  for (std::size_t g = 0; g < lamps_.size(); ++g)
+  for (std::size_t g = 0; views && g < lamps_.size(); ++g)
     for (const EmitterView& view : live_->views(g)) {
       if (view.reflector != reflector.index) continue;
       if (reflector.listed.size() + view.polygons.size() > kMaxReflectorEmitters) continue;

@@ -322,6 +322,10 @@ Pack tiny_mapped_pack() {
   reflector.visibility = {0, 51, 102, 153, 204, 255, 255, 204, 153, 102, 51, 0};
   const float none = std::numeric_limits<float>::quiet_NaN();
   pack.walk_grids = {{{-2, -2}, 0.5f, 3, 2, {0, 0.25f, none, none, -1, 0}, 1.6f}, {{0, 0}, 1, 1, 1, {3}, 1.5f}};
+  Reflector lit = pack.reflectors[0];
+  lit.name = "screen";
+  lit.elements_x = lit.elements_y = lit.first_map = lit.map_count = 0;
+  pack.frosted_panes = {lit};
   pack.curved_reflectors = {{"wall", 1, 0, {4, 5, 6}}};
   pack.surround_maps = {
       {{0, 1, -1}, 2, {{1, 0.5f, 0}, {8, 4, 2}, {0, 0, 0}, {0.25f, 3, 1}}, {2, 0, 1, 0.5f}, {1, 2, 0, 1}}};

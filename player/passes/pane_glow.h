@@ -1,0 +1,20 @@
+// The light of points, spots and suns that flat frosted panes spread to the eye.
+#pragma once
+
+#include "player/gpu/program.h"
+#include "player/scene/frame_context.h"
+
+namespace oriel {
+
+class PaneGlow {
+ public:
+  static Result<PaneGlow> create(gpu::Dialect dialect);
+
+  // Added to what a body shows, where its panes are lit from the other side than the eye is on. The frame is bound.
+  void draw(const FrameContext& context, const GlassBody& body) const;
+
+ private:
+  gpu::Program program_;
+};
+
+}  // namespace oriel

@@ -1,0 +1,1 @@
+#include "passes/surface_vertex.glsl"

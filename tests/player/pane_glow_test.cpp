@@ -1,0 +1,101 @@
+// What flat frosted panes show of lights behind them, against the density of their facets.
+#include <cmath>
+
+#include "tests/player/glass_fixture.h"
+
+namespace oriel {
+namespace {
+
+using namespace testing;
+
+constexpr Vec3 kTint(0.9f, 0.6f, 0.3f);
+constexpr float kRadiance = 1e6f, kHalf = 0.005f;  // of a square light
+
+// A pane of 4 m² in z = 0, lit from z < 0 by a square about `light` that faces it; its nodes see those shares of it.
+Pack lit_pane(float roughness, const Vec3& light, std::uint8_t left = 255, std::uint8_t right = 255) {
+  Pack pack = glass_pack(1.5f, roughness);
+  pack.solids.clear();
+  pack.materials[0].base_color = kTint, pack.materials[0].double_sided = true;
+  add_quad(pack, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0, -1);
+  const Vec3 z = glm::normalize(-light), x = glm::normalize(glm::cross(Vec3(0, 1, 0), z)), y = glm::cross(z, x);
+  pack.emitters = {
+      {{light - kHalf * (x + y), light + kHalf * (x - y), light + kHalf * (x + y), light - kHalf * (x - y)},
+       Vec3(kRadiance),
+       false}};
+  Reflector side;
+  side.pack_from_reflector = Mat4(Vec4(-1, 0, 0, 0), Vec4(0, 1, 0, 0), Vec4(0, 0, -1, 0), Vec4(0, 0, 0, 1));
+  side.lower = Vec2(-1), side.upper = Vec2(1), side.area_m2 = 4;
+  side.indices = pack.mesh.indices;
+  side.emitters = {0};
+  side.visibility_x = side.visibility_y = 2;
+  side.visibility = {left, right, left, right};
+  pack.frosted_panes = {side};
+  return pack;
+}
+
+// D G1 / (4 cosθo) of both facets that turn wo to wi, times the light's irradiance at p.
+double expected_glow(double roughness, const DVec3& eye, const DVec3& p, const DVec3& light) {
+  const DVec3 wo = glm::normalize(eye - p), wi = glm::normalize(light - p);
+  const double alpha = roughness * roughness, a2 = alpha * alpha;
+  double density = 0;
+  for (const double z : {-wi.z, wi.z}) {
+    DVec3 h = wo + DVec3(wi.x, wi.y, z);
+    if (h.z <= 0) continue;
+    h = glm::normalize(h);
+    const double d = a2 / (kPiD * std::pow(h.z * h.z * (a2 - 1) + 1, 2));
+    density += d * 2 * wo.z / (wo.z + std::sqrt(a2 + (1 - a2) * wo.z * wo.z)) / (4 * wo.z);
+  }
+  const DVec3 facing = glm::normalize(-light), way = light - p;
+  return density * kRadiance * 4 * kHalf * kHalf * std::abs(glm::dot(facing, wi)) / glm::dot(way, way);
+}
+
+class PaneGlowTest : public FrameTest {
+ protected:
+  // In the middle of a picture of what lies around p.
+  Vec3 glow(const Pack& pack, const Vec3& eye, const Vec3& p, const FrameOptions& options = {}) {
+    return draw(pack, camera_at(eye, p, 0.01f), 9, 9, options).at(4, 4);
+  }
+};
+
+TEST_F(PaneGlowTest, IsWhatFacetsSend) {
+  for (const float roughness : {0.2f, 0.5f, 1.0f})
+    for (const Vec3& light : {Vec3(0, 0, -2), Vec3(1, 0.5f, -1), Vec3(0, -30, -20)})
+      for (const Vec3& eye : {Vec3(0, 0, 1.5f), Vec3(-0.8f, 0.3f, 1), Vec3(0.2f, 1, 0.3f)})
+        for (const Vec3& p : {Vec3(0), Vec3(0.7f, -0.4f, 0)}) {
+          const double expected = expected_glow(roughness, DVec3(eye), DVec3(p), DVec3(light));
+          const Vec3 found = glow(lit_pane(roughness, light), eye, p);
+          for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[c], expected * double{kTint[c]}, 0.02 * expected + 1e-4)
+                << roughness << " light " << light.z << " eye " << eye.z << " at " << p.x;
+        }
+}
+
+TEST_F(PaneGlowTest, GoesByWhatNodesSee) {
+  const Vec3 light(0, 0, -2), eye(0, 0, 1.5f);
+  const float all = glow(lit_pane(0.5f, light), eye, Vec3(0)).g;
+  ASSERT_GT(all, 1);
+  EXPECT_NEAR(glow(lit_pane(0.5f, light, 255, 0), eye, Vec3(0)).g / all, 0.5, 0.01);
+  EXPECT_EQ(glow(lit_pane(0.5f, light, 0, 0), eye, Vec3(0)).g, 0);
+}
+
+TEST_F(PaneGlowTest, IsNotSeenFromTheLitSideNorInClearGlass) {
+  const Vec3 light(0.3f, 0, -2);
+  EXPECT_EQ(glow(lit_pane(0.5f, light), {0, 0, -1.5f}, Vec3(0)).g, 0);
+  EXPECT_EQ(glow(lit_pane(0.5f, light), {0, 0, 1.5f}, Vec3(0), {.blur = Blur::kOff}).g, 0);
+  Pack hidden = lit_pane(0.5f, light);
+  add_quad(hidden, {-1, -1, 0.5f}, {2, 0, 0}, {0, 2, 0}, add_lamp(hidden, Vec3(7)), -1);
+  EXPECT_NEAR(glow(hidden, {0, 0, 1.5f}, Vec3(0)).g, 7, 0.01);
+}
+
+TEST_F(PaneGlowTest, StaysFinite) {
+  for (const float roughness : {0.03f, 1.0f})
+    for (const Vec3& light : {Vec3(0, 0.001f, -1e-5f), Vec3(0, 1, -1e5f), Vec3(50, 0, -1e-3f)})
+      for (const Vec3& eye : {Vec3(0, 0.01f, 1e-4f), Vec3(3, 0, 1e-3f), Vec3(0, 0.5f, 100)}) {
+        const Vec3 found = glow(lit_pane(roughness, light), eye, Vec3(0));
+        EXPECT_TRUE(is_finite(found)) << roughness << " " << light.z << " " << eye.z;
+        EXPECT_GE(found.g, 0);
+      }
+}
+
+}  // namespace
+}  // namespace oriel
