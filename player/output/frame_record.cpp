@@ -43,6 +43,8 @@ nlohmann::ordered_json as_json(const FrameRecord& record) {
           {"groups_seen", s.groups_seen},
           {"groups", s.groups},
           {"reflectors", s.reflectors},
+          {"glass", s.glass},
+          {"mirrored_glass", s.mirrored_glass},
           {"maps", s.maps},
           {"points", s.points},
           {"image_pixels", s.image_pixels},
@@ -81,6 +83,8 @@ std::string describe(const FrameStats& stats, bool in_zone) {
   if (stats.coarser_images + stats.missing_images > 0)
     text += fmt::format(", {:.1f} MB of images, {} coarser, {} left out", static_cast<double>(stats.image_bytes) * 1e-6,
                         stats.coarser_images, stats.missing_images);
+  if (stats.glass + stats.mirrored_glass > 0)
+    text += fmt::format(", {} bodies of glass, {} in reflectors", stats.glass, stats.mirrored_glass);
   if (stats.groups > 0) text += fmt::format(", {} of {} groups may be seen", stats.groups_seen, stats.groups);
   if (const ShadeStats& shade = stats.shade; shade.lights > 0) {
     text += fmt::format(", shade of movers in {} lights, made in {:.1f} s", shade.lights, shade.prepare_s);

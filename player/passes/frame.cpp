@@ -122,16 +122,6 @@ Status Renderer::add_lamps(const FrameContext& context, const LitBatches& lit) {
   return {};
 }
 
-Status Renderer::draw_see_through(const FrameContext& context, const SceneWeights& weights) {
-  if (context.scene.glass().empty()) return scene_pass_.draw_transparent(context, weights);
-  ORIEL_TRY_VOID(glass_pass_.prepare(context, scene_pass_));
-  frame_->drawn().bind();
-  glViewport(0, 0, context.view.width, context.view.height);
-  return scene_pass_.draw_transparent(context, weights, [&](const GlassBody&, std::size_t body) {
-    return glass_pass_.draw(context, scene_pass_, *frame_, body);
-  });
-}
-
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
   in_window_ = drew_movers_ = false;
   // Light of moved lamps is that of the textures that are there.
@@ -173,12 +163,17 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
   const std::vector<PlacedMover> mirrored = in_mirrors(scene, options);
   MultiPass* const lamps = options.multi_pass.on ? &multi_pass_ : nullptr;
   if (lamps) ORIEL_TRY_VOID(clock_.time(Pass::kLamps, [&] { return lamps->begin(context, movers); }));
-  const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored, lamps};
+  const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored, glass_pass_, lamps};
   const ReflectionTarget target{&*frame_};
   ReflectionMarks marks;
   ORIEL_TRY(const std::vector<MarkedReflector> marked,
             clock_.time(Pass::kMask, [&] { return reflections_.draw_masks(context, target, marks); }));
-  if (!marked.empty()) frame_->resolve_depth_stencil();
+  if (!marked.empty()) {
+    // What eyes see straight is known first, whatever mirrors show.
+    ORIEL_TRY_VOID(glass_pass_.prepare(context, scene_pass_, target));
+    target.bind(view);
+    frame_->resolve_depth_stencil();
+  }
   for (const MarkedReflector& m : marked)
     if (m.value > 0) ORIEL_TRY_VOID(reflections_.draw(work, target, m, &clock_));
   ORIEL_TRY(const auto see_through,
@@ -196,7 +191,8 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
                          change ? &change->on_movers : nullptr);
       });
     }
-    ORIEL_TRY_VOID(clock_.time(Pass::kTransparent, [&] { return draw_see_through(context, weights); }));
+    ORIEL_TRY_VOID(clock_.time(Pass::kTransparent,
+                               [&] { return glass_pass_.draw_see_through(context, scene_pass_, target, weights); }));
   }
   for (const MarkedReflector& m : marked)
     if (m.value == 0) ORIEL_TRY_VOID(reflections_.draw(work, target, m, &clock_));

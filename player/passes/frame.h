@@ -58,8 +58,6 @@ class Renderer {
                                                   std::span<const PlacedMover> movers);
   // Light of lamps that the lightmap is without.
   Status add_lamps(const FrameContext& context, const LitBatches& lit);
-  // See-through surfaces and bodies of glass.
-  Status draw_see_through(const FrameContext& context, const SceneWeights& weights);
 
   gpu::Device device_;
   ScenePass scene_pass_;

@@ -1,8 +1,6 @@
 #include "player/passes/glass_pass.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 
 #include "player/gpu/raster_state.h"
 #include "player/scene/surface.h"
@@ -21,41 +19,15 @@ enum GlassUnit {
   kGlassThrough = 7
 };
 
-constexpr int kShapeSize = 128, kAroundSize = 256;  // texels a side of a face
-constexpr std::ptrdiff_t kMostAround = 16;  // bodies that the scene is drawn around; others use the nearest one's
-constexpr float kLeastOfPicture = 1e-4f;    // of it, that a body covers for that
 constexpr float kMostIor = 10;              // beyond it numbers run out
 constexpr std::ptrdiff_t kMostWindows = 4;  // bodies of a frame that have one, 1 while something moves
 constexpr float kLeastBend = 8;             // pixels by which glass shifts things, for that
+// What reflectors show of glass is as in the frame for bodies that cover so much of the whole picture, the largest in
+// an image, after so few of them; where a reflector leaves less than half of the light, or blurs, with fewer rays.
+constexpr float kLeastInImage = 3e-4f, kMirroring = 0.5f;
+constexpr std::size_t kMostInImage = 8;
+constexpr int kMostMirrors = 2;
 constexpr int kLooks = 32, kPaneLooks = 12, kCoarseLooks = 4;  // of a lobe
-
-Camera face_camera(const Vec3& eye, int face) {
-  Camera camera;
-  camera.eye = eye;
-  camera.forward = Vec3(0);
-  camera.forward[face / 2] = face % 2 == 0 ? 1.0f : -1.0f;
-  camera.up = face / 2 == 1 ? Vec3(0, 0, camera.forward.y) : Vec3(0, -1, 0);
-  camera.vertical_fov_rad = 0.5f * kPi;
-  return camera;
-}
-
-gpu::TextureOptions with_levels(const IVec2& size) {
-  gpu::TextureOptions options;
-  options.levels = gpu::mip_levels(size.x, size.y);
-  options.mag_filter = GL_LINEAR;
-  options.min_filter = GL_LINEAR_MIPMAP_NEAREST;
-  return options;
-}
-
-void clear_face(const Vec4& color) {
-  gpu::RasterState all;
-  all.depth_write = true;
-  all.stencil_write = 0xff;
-  gpu::apply(all);
-  glClearColor(color.x, color.y, color.z, color.w);
-  glClearStencil(0);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-}
 
 float share_of_picture(const NdcRect& rect) {
   if (rect.empty) return 0;
@@ -63,12 +35,20 @@ float share_of_picture(const NdcRect& rect) {
   return 0.25f * size.x * size.y;
 }
 
+// Depth of a view without a mirror's near plane, from where that one has it: of x, y, z, 1 in normalised device
+// coordinates.
+Vec4 upright_depth(const View& view) {
+  const DMat4 upright = DMat4(view.clip_from_view) * DMat4(view.view_from_pack);
+  return Vec4(glm::transpose(upright * glm::inverse(DMat4(view.clip_from_pack)))[2]);
+}
+
+// Whole pixels around it, and what glass.frag reads beside them.
 void scissor_to(const NdcRect& rect, const View& view) {
   const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
   const IVec2 lower(glm::floor((glm::clamp(rect.lower, -1.0f, 1.0f) * 0.5f + 0.5f) * size));
   const IVec2 upper(glm::ceil((glm::clamp(rect.upper, -1.0f, 1.0f) * 0.5f + 0.5f) * size));
-  const IVec2 first = glm::max(lower - 1, IVec2(0));
-  glScissor(first.x, first.y, rect.empty ? 0 : upper.x + 1 - first.x, rect.empty ? 0 : upper.y + 1 - first.y);
+  const IVec2 first = glm::max(lower - 2, IVec2(0));
+  glScissor(first.x, first.y, rect.empty ? 0 : upper.x + 2 - first.x, rect.empty ? 0 : upper.y + 2 - first.y);
 }
 
 bool overlap(const NdcRect& a, const NdcRect& b) {
@@ -88,55 +68,53 @@ Status GlassPass::compile() {
   ORIEL_TRY(light_, gpu::Program::create("screen_glass", dialect_));
   ORIEL_TRY(glass_, gpu::Program::create("glass", dialect_));
   ORIEL_TRY(glow_, PaneGlow::create(dialect_));
-  ORIEL_TRY(shape_, gpu::Program::create("glass_shape", dialect_));
   ORIEL_TRY(copy_, gpu::Program::create("screen_behind", dialect_));
   no_vertices_ = gpu::make_vertex_array();
-  depth_ = gpu::Texture2d(gpu::kDepthStencil, kAroundSize, kAroundSize, nullptr);
-  ORIEL_TRY(face_, gpu::Framebuffer::create("faces around glass", nullptr, &depth_, true));
-  return gpu::check_gl("compiling glass");
+  return cubes_.compile(dialect_);
 }
 
-// Another scene has other bodies; the same one with other lights has the same shapes.
-Status GlassPass::start(const GpuScene& scene) {
-  ORIEL_TRY_VOID(compile());
-  if (geometry_of_ == scene.geometry_serial()) return {};
-  geometry_of_ = scene.geometry_serial();
-  bodies_.clear();
-  bodies_.resize(scene.glass().size());
-  return {};
-}
-
-Status GlassPass::prepare(const FrameContext& context, const ScenePass& scene_pass) {
+std::vector<std::pair<float, std::size_t>> GlassPass::shown_in(const FrameContext& context,
+                                                               const ReflectionTarget& target) {
   const auto& [scene, view, options, stats] = context;
   const Frustum frustum = make_frustum(view.clip_from_pack);
-  std::vector<std::pair<float, std::size_t>> seen;  // minus the share of the picture
+  const bool image = target.frame == nullptr;
+  std::vector<std::pair<float, std::size_t>> seen;
+  if (image && target.mirrors > kMostMirrors) return seen;
   for (std::size_t i = 0; i < scene.glass().size(); ++i) {
     const Bounds& box = scene.glass()[i].bounds;
-    if (may_be_visible(frustum, box)) seen.emplace_back(-share_of_picture(project_box(view.clip_from_pack, box)), i);
+    if (!may_be_visible(frustum, box)) continue;
+    const float share = target.share * share_of_picture(project_box(view.clip_from_pack, box));
+    if (!image || share >= kLeastInImage) seen.emplace_back(-share, i);
   }
-  since_.reset();
-  if (seen.empty()) return {};
-  ORIEL_TRY_VOID(start(scene));
   std::sort(seen.begin(), seen.end());
-  choose_windows(context, seen);
-  const bool whole = !scene.images().state().busy;
+  if (image && seen.size() > kMostInImage) seen.resize(kMostInImage);
+  return seen;
+}
+
+Status GlassPass::prepare(const FrameContext& context, const ScenePass& scene_pass, const ReflectionTarget& target) {
+  const auto& [scene, view, options, stats] = context;
+  for (Body& body : bodies_) body.shown = false;
+  since_.reset();
+  const std::vector<std::pair<float, std::size_t>> seen = shown_in(context, target);
+  if (seen.empty()) return {};
+  ORIEL_TRY_VOID(compile());
+  cubes_.start(scene);
+  bodies_.resize(scene.glass().size());
+  few_looks_ = options.coarse || target.blurs || target.mirrors > 1 || target.reflectance < kMirroring;
+  choose_windows(context, target, seen);
   for (const auto& [share, i] : seen) {
-    Body& body = bodies_[i];
-    const GlassBody& glass = scene.glass()[i];
-    if (glass.planes.empty() && !glass.pane && !body.shape) ORIEL_TRY_VOID(draw_shape(context, i));
-    if (-share < kLeastOfPicture || (body.around_of == scene.serial() && (body.whole || !whole))) continue;
-    const auto others = std::ranges::count_if(bodies_, [](const Body& b) { return static_cast<bool>(b.around); });
-    if (!body.around && others >= kMostAround) continue;
-    ORIEL_TRY_VOID(draw_around(context, i, scene_pass));
-    body.around_of = scene.serial(), body.whole = whole;
+    bodies_[i].shown = true;
+    ORIEL_TRY_VOID(cubes_.make(context, scene_pass, i, -share));
   }
   return gpu::check_gl("drawing around glass");
 }
 
-void GlassPass::choose_windows(const FrameContext& context, std::span<const std::pair<float, std::size_t>> by_share) {
+void GlassPass::choose_windows(const FrameContext& context, const ReflectionTarget& target,
+                               std::span<const std::pair<float, std::size_t>> by_share) {
   const auto& [scene, view, options, stats] = context;
   for (Body& body : bodies_) body.window.reset();
-  std::ptrdiff_t left = options.coarse ? 1 : kMostWindows;
+  const bool in_image = target.frame == nullptr;
+  std::ptrdiff_t left = in_image ? (few_looks_ ? 0 : 1) : options.coarse ? 1 : kMostWindows;
   for (const auto& [share, i] : by_share) {
     if (left == 0) break;
     const GlassBody& body = scene.glass()[i];
@@ -147,84 +125,28 @@ void GlassPass::choose_windows(const FrameContext& context, std::span<const std:
   }
 }
 
-Status GlassPass::draw_shape(const FrameContext& context, std::size_t body) {
-  const GpuScene& scene = context.scene;
-  const GlassBody& glass = scene.glass()[body];
-  bodies_[body].shape = gpu::CubeTexture(gpu::kRgba32f, kShapeSize, 1);
-  ORIEL_TRY_VOID(gpu::check_gl("making the shape of glass"));
-  face_.bind();
-  glViewport(0, 0, kShapeSize, kShapeSize);
-  shape_.use();
-  shape_.set("u_centre", glass.centre);
-  scene.bind_geometry();
-  for (int face = 0; face < 6; ++face) {
-    face_.attach_color_face(bodies_[body].shape, face);
-    clear_face(Vec4(0, 0, 0, glass.radius));
-    gpu::RasterState state;
-    state.depth_test = state.depth_write = true;
-    gpu::apply(state);
-    shape_.set("u_clip_from_pack",
-               make_view(face_camera(glass.centre, face), kShapeSize, kShapeSize, glass.bounds).clip_from_pack);
-    for (const DrawRange& range : glass.ranges) draw_indices(range.first_index, range.index_count, context.stats);
+Status GlassPass::take_behind(const FrameContext& context, const ReflectionTarget& target, bool levels) {
+  const auto& [scene, view, options, stats] = context;
+  ORIEL_TRY(canvas_, canvases_.of(target, view));
+  if (target.frame != nullptr) {
+    target.frame->resolve_light();
+    target.frame->resolve_depth_stencil();
   }
-  return {};
-}
-
-Status GlassPass::draw_around(const FrameContext& context, std::size_t body, const ScenePass& scene_pass) {
-  GpuScene& scene = context.scene;
-  gpu::CubeTexture& around = bodies_[body].around;
-  if (!around) around = gpu::CubeTexture(gpu::kRgba32f, kAroundSize, gpu::mip_levels(kAroundSize, kAroundSize));
-  ORIEL_TRY_VOID(gpu::check_gl("making the surroundings of glass"));
-  for (int face = 0; face < 6; ++face) {
-    const View view =
-        make_view(face_camera(scene.glass()[body].centre, face), kAroundSize, kAroundSize, scene.bounds());
-    face_.bind();
-    face_.attach_color_face(around, face);
-    glViewport(0, 0, kAroundSize, kAroundSize);
-    clear_face(Vec4(scene.pack().sky, kClosest));
-    const FrameContext outside{scene, view, context.options, context.stats};
-    const MirroredScene seen{visible_batches(scene.opaque(), make_frustum(view.clip_from_pack)), {}, {}};
-    scene_pass.draw_reflected(outside, seen);
-    ORIEL_TRY_VOID(scene_pass.draw_transparent(outside, {}, [](const GlassBody&, std::size_t) { return Status(); }));
-  }
-  around.make_mipmaps();
-  return {};
-}
-
-Status GlassPass::make_canvas(const IVec2& size) {
-  if (behind_ && IVec2(behind_.width(), behind_.height()) == size) return {};
-  behind_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr, with_levels(size));
-  places_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr);
-  normals_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr);
-  tints_ = gpu::Texture2d(gpu::kRgba8, size.x, size.y, nullptr);
-  shaded_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr);
-  nearest_ = gpu::Texture2d(gpu::kDepthStencil, size.x, size.y, nullptr);
-  ORIEL_TRY_VOID(gpu::check_gl("making the images of glass"));
-  ORIEL_TRY(behind_framebuffer_, gpu::Framebuffer::create("the image behind glass", &behind_, nullptr));
-  ORIEL_TRY(surfaces_framebuffer_,
-            gpu::Framebuffer::create("surfaces of glass",
-                                     std::array<const gpu::Texture2d*, 3>{&places_, &normals_, &tints_}, nearest_));
-  ORIEL_TRY(shaded_framebuffer_, gpu::Framebuffer::create("light of glass", &shaded_, nullptr));
-  return {};
-}
-
-Status GlassPass::take_behind(const FrameTarget& frame, bool levels, FrameStats& stats) {
-  const IVec2 size = frame.size();
-  ORIEL_TRY_VOID(make_canvas(size));
-  frame.resolve_light();
-  frame.resolve_depth_stencil();
-  behind_framebuffer_.bind();
-  glViewport(0, 0, size.x, size.y);
+  canvas_->behind_framebuffer.bind();
+  glViewport(0, 0, canvas_->size().x, canvas_->size().y);
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
   copy_.use();
-  frame.light.bind(0);
-  frame.depth.bind(1);
+  (target.frame != nullptr ? target.frame->light : target.image->sharp).bind(0);
+  (target.frame != nullptr ? target.frame->depth : target.image->depth).bind(1);
   copy_.set("u_light", 0);
   copy_.set("u_depth", 1);
+  copy_.set("u_size", IVec2(view.width, view.height));
+  copy_.set("u_oblique", target.frame == nullptr ? 1 : 0);
+  if (target.frame == nullptr) copy_.set("u_depth_row", upright_depth(view));
   glDrawArrays(GL_TRIANGLES, 0, 3);
   ++stats.draws;
-  if (levels) behind_.make_mipmaps();
+  if (levels) canvas_->behind.make_mipmaps();
   has_levels_ = levels;
   since_.emplace();
   return {};
@@ -232,22 +154,15 @@ Status GlassPass::take_behind(const FrameTarget& frame, bool levels, FrameStats&
 
 Status GlassPass::draw_through(const FrameContext& context, const GlassWindow& window, const ScenePass& scene_pass) {
   GpuScene& scene = context.scene;
-  const IVec2 size(window.view.width, window.view.height);
-  if (!through_ || IVec2(through_.width(), through_.height()) != size) {
-    through_ = gpu::Texture2d(gpu::kRgba32f, size.x, size.y, nullptr, with_levels(size));
-    through_depth_ = gpu::Texture2d(gpu::kDepthStencil, size.x, size.y, nullptr);
-    ORIEL_TRY_VOID(gpu::check_gl("making the image through glass"));
-    ORIEL_TRY(through_framebuffer_,
-              gpu::Framebuffer::create("the image through glass", &through_, &through_depth_, true));
-  }
-  through_framebuffer_.bind();
-  glViewport(0, 0, size.x, size.y);
-  clear_face(Vec4(scene.pack().sky, kClosest));
+  ORIEL_TRY_VOID(canvas_->make_through());
+  canvas_->through_framebuffer.bind();
+  glViewport(0, 0, canvas_->size().x, canvas_->size().y);
+  clear_all(Vec4(scene.pack().sky, kClosest));
   View beyond = window.view;
   beyond.clip_from_pack = window.clip;
   const FrameContext through{scene, beyond, context.options, context.stats};
   scene_pass.draw_reflected(through, {visible_batches(scene.opaque(), make_frustum(window.clip)), {}, {}});
-  if (has_levels_) through_.make_mipmaps();
+  if (has_levels_) canvas_->through.make_mipmaps();
   return gpu::check_gl("drawing through glass");
 }
 
@@ -256,7 +171,7 @@ void GlassPass::set_window(const std::optional<GlassWindow>& window) const {
   light_.set("u_window", window ? 1 : 0);
   if (!window) return;
   const View& view = window->view;
-  const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
+  const Vec2 size(canvas_->size());
   light_.set("u_window_from_pack", view.clip_from_pack);
   light_.set("u_window_size", size);
   light_.set("u_window_tangents", Vec4(view.tangents, view.centre));
@@ -264,26 +179,12 @@ void GlassPass::set_window(const std::optional<GlassWindow>& window) const {
   light_.set("u_window_pixels", 0.5f * std::min(size.x / view.tangents.x, size.y / view.tangents.y));
 }
 
-std::size_t GlassPass::nearest_around(const GpuScene& scene, std::size_t body) const {
-  std::size_t best = body;
-  float nearest = std::numeric_limits<float>::max();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const float away = length2(scene.glass()[i].centre - scene.glass()[body].centre);
-    if (!bodies_[i].around || away >= nearest) continue;
-    nearest = away;
-    best = i;
-  }
-  return best;
-}
-
-void GlassPass::draw_surface(const FrameContext& context, const GlassBody& body, gpu::Cull cull) const {
+void GlassPass::draw_surface(const FrameContext& context, const GlassBody& body, gpu::RasterState state) const {
   const auto& [scene, view, options, stats] = context;
-  surfaces_framebuffer_.bind();
+  canvas_->surfaces_framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
-  clear_face(Vec4(0));
-  gpu::RasterState state;
-  state.depth_test = state.depth_write = true;
-  state.cull = cull;
+  clear_all(Vec4(0));
+  state.depth_write = true;
   gpu::apply(state);
   surface_.use();
   set_surface(surface_, scene, body.material, !scene.pack().mesh.normal_uvs.empty());
@@ -305,7 +206,7 @@ void GlassPass::set_body(const GpuScene& scene, const GlassBody& body, const Fra
   light_.set("u_absorption", solid.absorption);
   light_.set("u_ior", std::clamp(m.ior, 1.0f, kMostIor));
   light_.set("u_width", frosted ? m.roughness * m.roughness : 0.0f);
-  light_.set("u_looks", !frosted ? 1 : options.coarse ? kCoarseLooks : body.pane ? kPaneLooks : kLooks);
+  light_.set("u_looks", !frosted ? 1 : few_looks_ ? kCoarseLooks : body.pane ? kPaneLooks : kLooks);
   light_.set("u_turn", static_cast<float>(glm::fract(0.618033988749895 * options.look)));
   light_.set("u_centre", body.centre);
   light_.set("u_radius", body.radius);
@@ -320,18 +221,18 @@ void GlassPass::set_body(const GpuScene& scene, const GlassBody& body, const Fra
 void GlassPass::shade(const FrameContext& context, std::size_t index, bool inside) const {
   const auto& [scene, view, options, stats] = context;
   const GlassBody& body = scene.glass()[index];
-  shaded_framebuffer_.bind();
+  canvas_->shaded_framebuffer.bind();
   light_.use();
   set_body(scene, body, options);
-  const std::size_t around = nearest_around(scene, index);
+  const std::size_t around = cubes_.nearest_around(scene, index);
   scene.reflectance_tables().bind(kGlassReflectance);
-  places_.bind(kGlassPlaces);
-  normals_.bind(kGlassNormals);
-  tints_.bind(kGlassTints);
-  behind_.bind(kGlassBehind);
-  bodies_[around].around.bind(kGlassAround);
-  if (!body.pane) bodies_[index].shape.bind(kGlassShape);
-  through_.bind(kGlassThrough);
+  canvas_->places.bind(kGlassPlaces);
+  canvas_->normals.bind(kGlassNormals);
+  canvas_->tints.bind(kGlassTints);
+  canvas_->behind.bind(kGlassBehind);
+  cubes_.around(around).bind(kGlassAround);
+  if (!body.pane) cubes_.shape(index).bind(kGlassShape);
+  canvas_->through.bind(kGlassThrough);
   constexpr std::pair<const char*, GlassUnit> kUnits[] = {
       {"u_places", kGlassPlaces}, {"u_normals", kGlassNormals},         {"u_tints", kGlassTints},
       {"u_behind", kGlassBehind}, {"u_reflectance", kGlassReflectance}, {"u_around", kGlassAround},
@@ -339,7 +240,7 @@ void GlassPass::shade(const FrameContext& context, std::size_t index, bool insid
   for (const auto& [name, unit] : kUnits) light_.set(name, static_cast<int>(unit));
   light_.set("u_inside", inside ? 1 : 0);
   set_window(bodies_[index].window);
-  light_.set("u_clip_from_pack", view.clip_from_pack);
+  light_.set("u_clip_from_pack", view.clip_from_view * view.view_from_pack);  // no mirror's near plane
   light_.set("u_eye", view.eye);
   light_.set("u_levels", has_levels_ ? 1 : 0);
   light_.set("u_behind_size", Vec2(static_cast<float>(view.width), static_cast<float>(view.height)));
@@ -347,54 +248,62 @@ void GlassPass::shade(const FrameContext& context, std::size_t index, bool insid
   light_.set("u_pixels_per_tangent", 0.5f * static_cast<float>(view.height) / view.tangents.y);
   light_.set("u_around_centre", scene.glass()[around].centre);
   light_.set("u_around_size", static_cast<float>(kAroundSize));
-  clear_face(Vec4(0));
+  clear_all(Vec4(0));
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   ++stats.draws;
 }
 
-Status GlassPass::draw(const FrameContext& context, const ScenePass& scene_pass, const FrameTarget& frame,
+Status GlassPass::draw_see_through(const FrameContext& context, const ScenePass& scene_pass,
+                                   const ReflectionTarget& target, const SceneWeights& weights) {
+  if (context.scene.glass().empty()) return scene_pass.draw_transparent(context, weights);
+  ORIEL_TRY_VOID(prepare(context, scene_pass, target));
+  target.bind(context.view);
+  return scene_pass.draw_transparent(context, weights, [&](std::size_t body) -> Result<bool> {
+    if (body >= bodies_.size() || !bodies_[body].shown) return false;
+    ORIEL_TRY_VOID(draw(context, scene_pass, target, body));
+    ++(target.frame != nullptr ? context.stats.glass : context.stats.mirrored_glass);
+    return true;
+  });
+}
+
+Status GlassPass::draw(const FrameContext& context, const ScenePass& scene_pass, const ReflectionTarget& target,
                        std::size_t index) {
   const auto& [scene, view, options, stats] = context;
   const GlassBody& body = scene.glass()[index];
   const NdcRect screen = project_box(view.clip_from_pack, body.bounds);
-  const bool levels = (body.planes.empty() && !body.pane) || blurs(scene.pack().materials[body.material], options);
+  const bool frosted = blurs(scene.pack().materials[body.material], options);
+  const bool levels = (body.planes.empty() && !body.pane) || frosted;
   // Thin panes are drawn in between.
   const bool stale = !since_ || !scene.transparent().empty() || (levels && !has_levels_) ||
                      std::ranges::any_of(*since_, [&](const NdcRect& drawn) { return overlap(drawn, screen); });
-  if (stale) ORIEL_TRY_VOID(take_behind(frame, levels, stats));
+  if (stale) ORIEL_TRY_VOID(take_behind(context, target, levels));
   since_->push_back(screen);
   if (const auto& window = bodies_[index].window) ORIEL_TRY_VOID(draw_through(context, *window, scene_pass));
   const bool inside = !body.pane && view.eye.w > 0 && scene.is_inside_glass(body, Vec3(view.eye));
   gpu::RasterState state;
+  state.depth_test = true;
   state.cull = body.pane ? gpu::Cull::kNone : inside ? gpu::Cull::kFront : gpu::Cull::kBack;
+  state.mirrored = view.mirrored;
   glEnable(GL_SCISSOR_TEST);
   scissor_to(screen, view);
-  draw_surface(context, body, state.cull);
+  draw_surface(context, body, state);
   shade(context, index, inside);
   glDisable(GL_SCISSOR_TEST);
-  frame.drawn().bind();
-  state.depth_test = true;
-  state.alpha_write = false;
+  target.bind(view);
+  // What is seen through frosted glass lies in it, as a lobe that looks at it has it; else it lies where it is.
+  state.alpha_write = target.frame == nullptr && frosted;
   gpu::apply(state);
-  glass_.use();
+  set_distance_alpha(glass_, view);
   glass_.set("u_clip_from_pack", view.clip_from_pack);
+  glass_.set("u_eye", view.eye);
   glass_.set("u_shaded", 0);
-  shaded_.bind(0);
+  canvas_->shaded.bind(0);
   scene.bind_geometry();
   for (const DrawRange& range : body.ranges) draw_indices(range.first_index, range.index_count, stats);
-  if (blurs(scene.pack().materials[body.material], options)) glow_.draw(context, body);
+  if (frosted) glow_.draw(context, body);
   return {};
-}
-
-std::uint64_t GlassPass::bytes() const {
-  std::uint64_t sum = depth_.bytes();
-  for (const gpu::Texture2d* t :
-       {&behind_, &places_, &normals_, &tints_, &nearest_, &shaded_, &through_, &through_depth_})
-    sum += t->bytes();
-  for (const Body& body : bodies_) sum += body.shape.bytes() + body.around.bytes();
-  return sum;
 }
 
 }  // namespace oriel

@@ -83,12 +83,6 @@ decltype(auto) timed(PassClock* clock, Pass pass, const Draw& draw) {
 
 }  // namespace
 
-void ReflectionTarget::bind(const View& view) const {
-  (frame != nullptr ? frame->drawn() : image->sharp_framebuffer).bind();
-  if (image != nullptr) image->sharp_framebuffer.attach_color_level(image->sharp, 0);
-  glViewport(0, 0, view.width, view.height);
-}
-
 Result<ReflectionRenderer> ReflectionRenderer::create(const gpu::Device& device) {
   ReflectionRenderer out;
   out.device_ = device;
@@ -165,7 +159,7 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
   const bool blurs = lobe && options.show != Show::kM, even = lobe && options.blur == Blur::kConstant;
   const int reduction = even ? even_reduction(scene, reflector, view) : 1;
   const View drawn = reduction > 1 ? reduced_view(view, reduction) : view;
-  const ReflectionWork inner{{scene, drawn, options, stats}, work.scene_pass, work.mover_pass, work.movers, work.lamps};
+  const ReflectionWork inner = work.with({scene, drawn, options, stats});
   ImageRect rect = choose_image(in_reduced_view(marked.screen, view, drawn, reduction),
                                 blurs && !even ? kernel.median : 0.0f, drawn, device_.texture_size, options.coarse);
   rect.reduction = reduction;
@@ -256,11 +250,14 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
   const View view = mirrored_view(scene, reflector, eyes, image.rect);
   FrameOptions whole = options;  // what is in it is shown with all stages
   whole.show = Show::kAll;
-  const ReflectionWork within{{scene, view, whole, stats}, work.scene_pass, work.mover_pass, work.movers, work.lamps};
-  const ReflectionTarget inside{nullptr, &image.target, target.mirrors + 1,
+  const ReflectionWork within = work.with({scene, view, whole, stats});
+  const ReflectionTarget inside{nullptr,
+                                &image.target,
+                                target.mirrors + 1,
                                 target.reflectance * reflectance_of(pack, reflector.material),
                                 target.share * static_cast<float>(view.width) * static_cast<float>(view.height) /
-                                    (static_cast<float>(eyes.width) * static_cast<float>(eyes.height))};
+                                    (static_cast<float>(eyes.width) * static_cast<float>(eyes.height)),
+                                image.blurs};
   MirroredScene mirrored{visible_batches(scene.opaque(), make_frustum(view.clip_from_pack),
                                          sets_hold(work.context, target) ? reflector.seen : std::nullopt),
                          reflector.listed,
@@ -275,7 +272,7 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
     work.mover_pass.draw_depth(within.context, work.movers);
     work.mover_pass.draw_reflected(within.context, work.movers);
   }
-  return work.scene_pass.draw_transparent(within.context, {});
+  return work.glass.draw_see_through(within.context, work.scene_pass, inside, {});
 }
 
 Status ReflectionRenderer::add_lamps(const ReflectionWork& work, const ReflectionTarget& target,
@@ -290,7 +287,7 @@ Status ReflectionRenderer::add_lamps(const ReflectionWork& work, const Reflectio
 // The opaque scene in a mirror, with what its own reflectors show.
 Status ReflectionRenderer::draw_mirrors_in(const ReflectionWork& work, const ReflectionTarget& target,
                                            MirroredScene& mirrored) {
-  const auto& [context, scene_pass, mover_pass, movers, lamps] = work;
+  const auto& [context, scene_pass, mover_pass, movers, glass, lamps] = work;
   const View& view = context.view;
   const auto in_view = [&](const GpuReflector& r) { return !project_polygon(view.clip_from_pack, r.corners).empty; };
   const auto& planar = context.scene.reflectors();

@@ -12,6 +12,7 @@
 
 #include "player/movers/mover_pass.h"
 #include "player/navigation/zone.h"
+#include "player/passes/glass_pass.h"
 #include "player/passes/multi_pass.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
@@ -32,17 +33,9 @@ struct ReflectionWork {
   const ScenePass& scene_pass;
   const MoverPass& mover_pass;
   std::span<const PlacedMover> movers;  // as mirrors show them: in light without shadows of their own
-  MultiPass* lamps = nullptr;           // light that the lightmap is without; none: it has all
-};
-
-// Where reflectors are drawn: the frame, or the image of another one.
-struct ReflectionTarget {
-  const FrameTarget* frame = nullptr;  // null: an image
-  const ImageTarget* image = nullptr;
-  int mirrors = 0;        // on the way to it
-  float reflectance = 1;  // of those, at 60 degrees
-  float share = 1;        // of the frame's pixels
-  void bind(const View& view) const;
+  GlassPass& glass;
+  MultiPass* lamps = nullptr;  // light that the lightmap is without; none: it has all
+  ReflectionWork with(const FrameContext& other) const { return {other, scene_pass, mover_pass, movers, glass, lamps}; }
 };
 
 // Of a target's stencil.

@@ -231,9 +231,10 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
   state.mirrored = view.mirrored;
   state.stencil_read = kSeeThroughBit;
   for (const SeeThrough& one : sorted) {
+    bool solid = false;
     if (glass && one.body) {
-      ORIEL_TRY_VOID(glass(*one.body, one.index));
-      set_frame(lit().transparent, context);
+      ORIEL_TRY(solid, glass(one.index));
+      if (solid) set_frame(lit().transparent, context);
     }
     for (const DrawRange& range : one.ranges) {
       state.cull = cull_of(scene.pack().materials[range.material]);
@@ -246,7 +247,7 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
         lit().transparent.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
         draw_indices(range.first_index, range.index_count, stats);
       };
-      if (!glass || !one.body) draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);
+      if (!solid) draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);
       draw(gpu::Blend::kAdd, false, view.mirrored ? GL_ALWAYS : GL_EQUAL, weights.undirected);
       if (!view.mirrored) draw(gpu::Blend::kAdd, false, GL_NOTEQUAL, 0);
     }

@@ -33,8 +33,9 @@ struct MirroredScene {
   std::set<std::uint32_t> reflective;
 };
 
-// Draws what is seen through one of GpuScene::glass(), in place of what lies behind it; may bind what it likes.
-using DrawGlass = std::function<Status(const GlassBody& body, std::size_t index)>;
+// Draws what is seen through one of GpuScene::glass(), in place of what lies behind it; may bind what it likes. Gives
+// whether it has: else the body is drawn thin.
+using DrawGlass = std::function<Result<bool>(std::size_t body)>;
 
 class ScenePass {
  public:
@@ -55,7 +56,7 @@ class ScenePass {
   // for an orthographic view 1 / its depth, at least kClosest.
   void draw_reflected(const FrameContext& context, const MirroredScene& mirrored) const;
   // See-through surfaces, blended; the undirected part only where the see-through bit is clear, in a mirrored view,
-  // which has no stencil, everywhere. glass: of bodies; none: they are drawn thin. Errors of it.
+  // which has no stencil, everywhere. glass: of bodies; none: all are drawn thin. Errors of it.
   Status draw_transparent(const FrameContext& context, const SceneWeights& weights, const DrawGlass& glass = {}) const;
 
  private:

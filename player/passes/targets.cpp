@@ -34,4 +34,10 @@ Result<FrameTarget> make_frame_target(int width, int height, int samples, bool h
   return target;
 }
 
+void ReflectionTarget::bind(const View& view) const {
+  (frame != nullptr ? frame->drawn() : image->sharp_framebuffer).bind();
+  if (image != nullptr) image->sharp_framebuffer.attach_color_level(image->sharp, 0);
+  glViewport(0, 0, view.width, view.height);
+}
+
 }  // namespace oriel

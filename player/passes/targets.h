@@ -1,7 +1,8 @@
-// The frame that passes draw into.
+// The frame that passes draw into, and images of it.
 #pragma once
 
 #include "player/gpu/framebuffer.h"
+#include "player/reflections/image_target.h"
 
 namespace oriel {
 
@@ -27,5 +28,16 @@ struct FrameTarget {
 };
 // samples: at least 1, within the device's.
 Result<FrameTarget> make_frame_target(int width, int height, int samples, bool halves);
+
+// Where scene and reflections are drawn: the frame, or the image of a reflector.
+struct ReflectionTarget {
+  const FrameTarget* frame = nullptr;  // null: an image
+  const ImageTarget* image = nullptr;
+  int mirrors = 0;        // on the way to it
+  float reflectance = 1;  // of those, at 60 degrees
+  float share = 1;        // of the frame's pixels
+  bool blurs = false;     // an image that is convolved once it is drawn
+  void bind(const View& view) const;
+};
 
 }  // namespace oriel

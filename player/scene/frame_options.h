@@ -174,7 +174,9 @@ struct FrameStats {
   std::uint64_t triangles = 0;
   // Groups of opaque triangles that may be seen from the eye's place, of how many; 0 where the pack does not know.
   std::uint32_t groups_seen = 0, groups = 0;
-  std::uint32_t reflectors = 0;    // that had pixels in view
+  std::uint32_t reflectors = 0;  // that had pixels in view
+  // Bodies of glass and frosted panes that were drawn as such, in the frame and in images of reflectors.
+  std::uint32_t glass = 0, mirrored_glass = 0;
   std::uint32_t maps = 0;          // radiance and surround maps chosen
   std::uint64_t points = 0;        // of them
   std::uint64_t image_pixels = 0;  // of planar reflectors' images, with their margins

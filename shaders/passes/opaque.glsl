@@ -9,28 +9,21 @@ uniform float u_alpha_cutoff;  // negative: no cut-outs
 uniform bool u_unlit;
 #endif
 #if defined(PLAIN) && !defined(REFLECTED)
-const int u_alpha_kind = 0;
-#else
-uniform int u_alpha_kind;  // of o_light.a: 0 kind of light, 1 one over the distance from the eye, 2 over depth
+#define NO_DISTANCE
 #endif
+#include "lib/distance_alpha.glsl"
 uniform float u_diffuse_share;  // (1 - metallic) (1 - transmission)
 uniform vec3 u_emission;        // cd/m2, of white texels; of an unlit surface what shows its colour
 #ifndef PLAIN
 uniform sampler2D u_emission_texture;
 #endif
-uniform vec4 u_depth_row;    // depth of a point of pack space = dot(row, point)
-uniform float u_closest;     // least 1 / distance that is stored
 uniform vec3 u_weights;  // of the diffuse part, the undirected reflection, the emission: 0 or 1
 
 in vec2 v_uv;
 in vec4 v_color;
-layout(location = 0) out vec4 o_light;  // kind of light: 1 cd/m2, 2 that of an unlit surface
+layout(location = 0) out vec4 o_light;  // a: where it tells no distance, the kind of light: 1 cd/m2, 2 that of an unlit surface
 
-float alpha_of_light(float kind) {
-  if (u_alpha_kind == 0) return kind;
-  float away = u_alpha_kind == 1 ? distance(u_eye.xyz, v_position) : dot(u_depth_row, vec4(v_position, 1.0));
-  return clamp(1.0 / max(away, 1e-18), u_closest, 1e18);
-}
+float alpha_of_light(float kind) { return u_alpha_kind == 0 ? kind : inverse_distance(u_eye.xyz, v_position); }
 
 void main() {
   vec3 normal = tilted_by_map();

@@ -79,6 +79,20 @@ void add_mirror(Pack& pack, const std::vector<Vec3>& eyes, std::uint32_t size,
   pack.reflectors.push_back(reflector);
 }
 
+void add_bare_mirror(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up, std::uint32_t material) {
+  const auto first = static_cast<std::uint32_t>(pack.mesh.positions.size());
+  add_quad(pack, corner, right, up, material, -1);
+  Reflector reflector;
+  reflector.material = material;
+  const Vec3 x = glm::normalize(right), y = glm::normalize(up);
+  reflector.pack_from_reflector =
+      Mat4(Vec4(x, 0), Vec4(y, 0), Vec4(glm::cross(x, y), 0), Vec4(corner + 0.5f * (right + up), 1));
+  reflector.upper = 0.5f * Vec2(glm::length(right), glm::length(up));
+  reflector.lower = -reflector.upper;
+  for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) reflector.indices.push_back(first + i);
+  pack.reflectors.push_back(reflector);
+}
+
 void add_pixel_meshes(Pack& pack) {
   for (const RadianceMap& map : pack.radiance_maps) {
     MapMesh& mesh = pack.map_meshes.emplace_back();

@@ -29,6 +29,9 @@ struct Seen {
 void add_mirror(Pack& pack, const std::vector<Vec3>& eyes, std::uint32_t size,
                 const std::function<Seen(const Vec2& on_plane, const Vec3& direction)>& seen);
 
+// A mirror without maps: a quad of `material` over corner, right, up, whose normal is right x up.
+void add_bare_mirror(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up, std::uint32_t material = 0);
+
 // A reflectance that is the same at every angle.
 FresnelMap flat_reflectance(const Vec3& reflectance);
 

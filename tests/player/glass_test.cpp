@@ -12,36 +12,6 @@ namespace {
 
 using namespace testing;
 
-void add_ball(Pack& pack, const Vec3& centre, float radius, bool inwards = false) {
-  constexpr int kRings = 24, kSides = 48;
-  Mesh& mesh = pack.mesh;
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (int r = 0; r <= kRings; ++r)
-    for (int s = 0; s <= kSides; ++s) {
-      const float theta = kPi * static_cast<float>(r) / kRings;
-      const float phi = 2 * kPi * static_cast<float>(s % kSides) / kSides;
-      const Vec3 n = r == 0 ? Vec3(0, 1, 0)
-                     : r == kRings
-                         ? Vec3(0, -1, 0)
-                         : Vec3(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
-      mesh.positions.push_back(centre + radius * n);
-      mesh.normals.push_back(inwards ? -n : n);
-      mesh.uvs.emplace_back(0);
-      mesh.lightmap_uvs.emplace_back(0);
-    }
-  MeshPart part;
-  part.first_index = static_cast<std::uint32_t>(mesh.indices.size());
-  for (std::uint32_t r = 0; r < kRings; ++r)
-    for (std::uint32_t s = 0; s < kSides; ++s) {
-      const std::uint32_t a = first + r * (kSides + 1) + s, b = a + kSides + 1;
-      for (const std::uint32_t i : {a, b, b + 1, a, b + 1, a + 1}) mesh.indices.push_back(i);
-      if (inwards)
-        for (int t = 0; t < 2; ++t) std::swap(mesh.indices.end()[-3 * t - 1], mesh.indices.end()[-3 * t - 2]);
-    }
-  part.index_count = static_cast<std::uint32_t>(mesh.indices.size()) - part.first_index;
-  mesh.parts.push_back(part);
-}
-
 std::vector<GlassBody> bodies_of(const Pack& pack, std::vector<std::uint32_t>& indices,
                                  std::vector<DrawRange>& ranges) {
   ranges = sorted_ranges(pack.mesh, indices);
@@ -89,37 +59,10 @@ TEST_F(GlassTest, IsNotSeenInAnEvenLight) {
 
 // An edge behind a slab lies where the closed form of the parallel shift has it.
 TEST_F(GlassTest, SlabShiftsWhatLiesBehind) {
-  constexpr float kThick = 0.6f, kIor = 1.5f, kBehind = -1.5f;
-  Pack pack = glass_pack(kIor, 0);
-  add_box(pack, Vec3(-3, -3, -kThick), Vec3(3, 3, 0));
-  testing::add_quad(pack, {0, -4, kBehind}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(100)), -1);
+  Pack pack = glass_pack(ShiftedEdge::kIor, 0);
+  ShiftedEdge::add(pack);
   const Camera camera = camera_at({1.5f, 0, 1.5f}, {0, 0, -1});
-  constexpr int kSize = 160;
-  const Picture picture = draw(pack, camera, kSize, kSize);
-  int wrong = 0, unshifted = 0, seen = 0;
-  for (int x = 0; x < kSize; ++x) {
-    const auto x_behind = [&](float pixel, bool bent) {
-      const Vec3 d = pixel_ray(camera, static_cast<int>(pixel), kSize / 2, kSize, kSize);
-      const float cosine = -d.z, within = std::sqrt(1 - (1 - cosine * cosine) / (kIor * kIor));
-      const float slope = d.x / cosine, slope_within = d.x / kIor / within;
-      return camera.eye.x + slope * (camera.eye.z - kThick - kBehind) + (bent ? slope_within : slope) * kThick;
-    };
-    // Beyond the screen the surroundings show it, which are coarser.
-    const Vec3 hit = Vec3(x_behind(static_cast<float>(x), true), 0, kBehind) - camera.eye;
-    const float along = glm::dot(hit, camera.forward);
-    const float aside = glm::dot(hit, glm::normalize(glm::cross(camera.forward, Vec3(0, 1, 0))));
-    if (std::abs(aside) > 0.99f * along * std::tan(0.5f * camera.vertical_fov_rad)) continue;
-    const bool lit = picture.at(x, kSize / 2).x > 50;
-    seen += lit;
-    // The frame behind is known by pixel, and so is where on it the ray meets the edge.
-    const bool at_edge =
-        (x_behind(static_cast<float>(x - 2), true) > 0) != (x_behind(static_cast<float>(x + 2), true) > 0);
-    wrong += !at_edge && lit != (x_behind(static_cast<float>(x), true) > 0);
-    unshifted += lit != (x_behind(static_cast<float>(x), false) > 0);
-  }
-  EXPECT_EQ(wrong, 0);
-  EXPECT_GT(unshifted, 3) << "a thin pane would show it there";
-  EXPECT_GT(seen, 20);
+  ShiftedEdge::expect_in(draw(pack, camera, 160, 160), camera);
 }
 
 TEST_F(GlassTest, SlabAbsorbsByItsThickness) {
@@ -144,17 +87,7 @@ TEST_F(GlassTest, BlockShowsTheWallsThatRaysFind) {
   constexpr float kRoom = 2, kIor = 1.5f;
   Pack pack = glass_pack(kIor, 0);
   add_box(pack, lower, upper);
-  std::array<Vec3, 6> colors;
-  for (int side = 0; side < 6; ++side) {
-    const int axis = side / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
-    colors[static_cast<std::size_t>(side)] =
-        Vec3(20.0f * static_cast<float>(side + 1), 30.0f * static_cast<float>(side % 3),
-             40.0f * static_cast<float>(side % 2) + 10);
-    Vec3 corner(-kRoom), right(0), up(0);
-    corner[axis] = side % 2 ? kRoom : -kRoom;
-    right[side % 2 ? v : u] = 2 * kRoom, up[side % 2 ? u : v] = 2 * kRoom;
-    testing::add_quad(pack, corner, right, up, add_lamp(pack, colors[static_cast<std::size_t>(side)]), -1);
-  }
+  const std::array<Vec3, 6> colors = add_room(pack, kRoom);
   const auto box_exit = [](const Vec3& low, const Vec3& high, const Vec3& p, const Vec3& d, int& side) {
     float nearest = 1e30f;
     for (int axis = 0; axis < 3; ++axis) {
@@ -210,54 +143,6 @@ TEST_F(GlassTest, BlockShowsTheWallsThatRaysFind) {
   EXPECT_GT(total, 1500);
   EXPECT_GT(reflected, 200);
   EXPECT_GT(right, total * 99 / 100) << "of " << total;
-}
-
-// Pixels that an edge takes from a quarter to three quarters. Neighbours of 4 x 4 look at parts of the lobe: their
-// mean.
-float edge_width(const Picture& picture, int size) {
-  std::vector<float> profile;
-  for (int x = 2; x + 1 < size; ++x) {
-    float sum = 0;
-    for (int i = 0; i < 64; ++i) sum += picture.at(x + i % 4 - 2, size / 2 + i / 4 - 8).x / 64;
-    profile.push_back(sum);
-  }
-  const auto at = [&](float level) {
-    std::size_t i = 0;
-    while (i + 2 < profile.size() && profile[i + 1] < level) ++i;
-    return static_cast<float>(i) + (level - profile[i]) / std::max(profile[i + 1] - profile[i], 1e-3f);
-  };
-  return at(75) - at(25);
-}
-
-// The same of a slope: what becomes of rays from above at facets of GGX. beyond(facet): gives one.
-template <class Beyond>
-float slope_width(float alpha, const Beyond& beyond) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<float> uniform(0, 1);
-  const auto facet = [&] {
-    const float u = uniform(random), phi = 2 * kPi * uniform(random), slope = alpha * std::sqrt(u / (1 - u));
-    return glm::normalize(Vec3(slope * std::cos(phi), slope * std::sin(phi), 1));
-  };
-  std::vector<float> slopes;
-  for (int i = 0; i < 100000; ++i) {
-    const Vec3 d = beyond(facet);
-    if (d.z < 0) slopes.push_back(d.x / -d.z);
-  }
-  std::sort(slopes.begin(), slopes.end());
-  return slopes[slopes.size() * 3 / 4] - slopes[slopes.size() / 4];
-}
-
-constexpr float kBoardsFov = 0.8f;
-constexpr int kBoardsSize = 160;
-
-// A bright and a dark board behind what is there, as eyes see them from 1 m above it.
-void add_boards(Pack& pack, float z) {
-  testing::add_quad(pack, {0, -4, z}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(100)), -1);
-  testing::add_quad(pack, {-4, -4, z}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(0)), -1);
-}
-
-float pixels_of(float slopes, float behind) {
-  return slopes * behind / (1 + behind) * 0.5f * kBoardsSize / std::tan(0.5f * kBoardsFov);
 }
 
 TEST_F(GlassTest, FrostedBlurGrowsWithTheDistanceBehind) {

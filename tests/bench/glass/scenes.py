@@ -12,12 +12,13 @@ FACES = [((1, 0, 0), (0, 1, 0), (0, 0, 1)), ((-1, 0, 0), (0, 0, 1), (0, 1, 0)), 
 
 
 class Scene:
-    """A scene that is built up; `glass`: the eight corners of each box of glass."""
+    """A scene that is built up; `glass`: the eight corners of each box of glass, where eyes see it; `bake`: options it asks for."""
 
     def __init__(self, source=None):
         empty = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": []}
         self.tree, self.binary = glb.read(source) if source else (empty, b"")
         self.glass = []
+        self.bake = ""
 
     def _list(self, kind, value):
         self.tree.setdefault(kind, []).append(value)
@@ -38,6 +39,10 @@ class Scene:
             "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": ior},
                            "KHR_materials_volume": {"thicknessFactor": thickness_m, "attenuationDistance": 1,
                                                     "attenuationColor": list(left_after_1m)}}})
+
+    def mirror(self):
+        return self._list("materials", {
+            "pbrMetallicRoughness": {"baseColorFactor": [0.95, 0.95, 0.95, 1], "metallicFactor": 1, "roughnessFactor": 0}})
 
     def _mesh(self, name, points, normals, indices, material):
         def view(data):
@@ -173,6 +178,30 @@ def window(solid, roughness=0):
                 scene.pane("pane", (x - 0.636, y - 0.579, -2), (1.272, 0, 0), (0, 1.158, 0), material)
     scene.camera("inside", (0.6, 1.5, 1.6), (-0.2, 1.2, -2), 1.0)
     scene.camera("outside", (-0.8, 1.5, -4.9), (0.2, 1.2, -2), 0.9)
+    return scene
+
+
+def mirrored():
+    """A bathroom: a frosted screen with towels behind it and a green block, seen in the mirror alone."""
+    scene = Scene()
+    scene.bake = "--reflections geometry"
+    white, blue = scene.diffuse((0.75, 0.75, 0.75)), scene.diffuse((0.1, 0.2, 0.55))
+    red, yellow, dark = (scene.diffuse(c) for c in ((0.6, 0.1, 0.08), (0.7, 0.5, 0.08), (0.08, 0.08, 0.08)))
+    for name, middle, size, material in (
+            ("floor", (0, -0.05, 0), (2.6, 0.1, 3), dark), ("ceiling", (0, 2.45, 0), (2.6, 0.1, 3), white),
+            ("front", (0, 1.2, -1.35), (2.6, 2.4, 0.1), white), ("back", (0, 1.2, 1.35), (2.6, 2.4, 0.1), white),
+            ("left", (-1.25, 1.2, 0), (0.1, 2.4, 2.6), blue), ("right", (1.25, 1.2, 0), (0.1, 2.4, 2.6), white),
+            ("lamp", (0.2, 2.39, 0.1), (0.8, 0.02, 0.5), scene.diffuse((0.8, 0.8, 0.8), 1500)),
+            ("shower lamp", (-0.7, 2.39, 1), (0.3, 0.02, 0.3), scene.diffuse((0.8, 0.8, 0.8), 1500)),
+            ("plinth", (0.5, 0.55, 0.6), (0.4, 1.1, 0.3), white), ("tiles", (0.6, 1.5, 1.29), (0.5, 0.12, 0.02), yellow),
+            ("more tiles", (0.6, 1.2, 1.29), (0.5, 0.12, 0.02), red), ("towel", (-0.9, 1.3, 0.65), (0.18, 0.8, 0.06), red),
+            ("far towel", (-0.45, 1.3, 1.25), (0.2, 0.8, 0.06), yellow), ("shelf", (-0.6, 1.0, 1.2), (1.1, 0.04, 0.2), dark)):
+        scene.box(name, middle, size, material)
+    scene.box("mirror", (0, 1.4, -1.295), (1.8, 1.2, 0.01), scene.mirror())
+    scene.pane("frosted screen", (-1.1, 0.1, 0.5), (1.1, 0, 0), (0, 1.9, 0), scene.glass_of(0, 0.25))
+    scene.box("glass block", (0.5, 1.251, 0.6), (0.24, 0.3, 0.12), scene.glass_of(0.12, left_after_1m=(0.02, 0.4, 0.1)), 0.5, True)
+    scene.glass = [[(x, y, -2.58 - z) for x, y, z in corners] for corners in scene.glass]  # the mirror's front is at -1.29
+    scene.camera("in the mirror", (0.15, 1.5, -0.45), (-0.02, 1.42, -1.29), 0.9)
     return scene
 
 

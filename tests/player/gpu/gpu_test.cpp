@@ -39,7 +39,12 @@ constexpr const char* kPasses[] = {"depth",
                                    "screen_luminance",
                                    "screen_tonemap",
                                    "mover_light",
-                                   "mover_bright_light"};
+                                   "mover_bright_light",
+                                   "glass",
+                                   "glass_shape",
+                                   "glass_surface",
+                                   "screen_behind",
+                                   "screen_glass"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();
