@@ -302,7 +302,7 @@ class Bake {
 
   Status assemble() {
     context_.foretell("writing", 0);
-    ORIEL_TRY_VOID(list_frosted_panes(task(), mesh_, result_.omissions));
+    ORIEL_TRY_VOID(timed_("panes", [&](auto&) { return list_frosted_panes(task(), mesh_, result_.omissions); }));
     if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
     assemble_scene(scene(), std::move(materials_), std::move(mesh_), pack());
     for (Material& material : pack().materials)

@@ -49,8 +49,9 @@ class Accel {
   Accel& operator=(Accel&&) noexcept;
   ~Accel();
 
-  // The same for another scene, whose triangles lie as this one's and let light through where this one's do: nothing is
-  // built again. Each may end before the other. As build(): that scene must outlive it.
+  // The same for another scene, whose triangles lie as this one's and let light through where this one's do, with the
+  // same flat frosted panes if there are lights: nothing is built again. Each may end before the other. As build():
+  // that scene must outlive it.
   Accel of(const Scene& scene) const;
 
   const Scene& scene() const;

@@ -70,11 +70,15 @@ FrostedLights::FrostedLights(const Scene& scene) : scene_(&scene) {
     areas_.emplace_back();
     double area = 0;
     for (const std::uint32_t t : panes_[m].triangles) areas_.back().push_back(area += triangle_area(scene, t));
+    DVec3 sum(0);
+    for (const DVec3& corner : panes_[m].hull) sum += corner / double(panes_[m].hull.size());
+    middle_.push_back(sum), extent_.push_back(0);
+    for (const DVec3& corner : panes_[m].hull) extent_.back() = std::max(extent_.back(), glm::distance(corner, sum));
   }
-  double sum = 0;
   for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
     const Light& light = scene.lights[l];
     const bool afar = light.type == LightType::kDirectional;
+    const double power = luminance(afar ? light.intensity : Vec3(punctual_power(scene, light)));
     for (std::uint16_t m = 0; m < panes_.size(); ++m) {
       const PlanarMirror& pane = panes_[m];
       // Of a sun's disk a part may be behind the pane where its centre is not.
@@ -83,12 +87,10 @@ FrostedLights::FrostedLights(const Scene& scene) : scene_(&scene) {
           afar ? glm::dot(pane.normal, DVec3(light.direction)) + low : -pane.height(DVec3(light.position));
       if (!(behind > (afar ? 0 : in_plane))) continue;
       const double size = std::sqrt(pane.area_m2);
-      const double own = afar ? luminance(light.intensity) * pane.area_m2 * behind
-                              : luminance(Vec3(punctual_power(scene, light))) * pane.area_m2 /
-                                    (pane.area_m2 + behind * behind + size * behind);
+      const double own = power * pane.area_m2 * (afar ? behind : 1 / (pane.area_m2 + behind * behind + size * behind));
       if (!(own > 0)) continue;
       ways_.push_back({l, m});
-      cumulative_.push_back(sum += own);
+      power_.push_back(own);
     }
   }
 }
@@ -113,12 +115,18 @@ MirroredSample FrostedLights::sample(std::size_t i, const LightSet& lights, cons
   std::optional<PlanarMirrors::On> on;
   if (chosen.facet.x >= 0.5f) {
     on = point_by_area(ways_[i].pane, {2 * chosen.facet.x - 1, chosen.facet.y});
+    // Of surfaces in one place the first counts: the density is that of choosing it.
+    const auto first =
+        on ? panes_.on(*scene_, ways_[i].pane, DVec3(point_on(*scene_, on->triangle, on->barycentric))) : on;
+    if (!first || first->triangle != on->triangle) return sample;
   } else if (const auto point = lobe.point({2 * chosen.facet.x, chosen.facet.y})) {
     on = panes_.on(*scene_, ways_[i].pane, *point);
   }
   if (!on) return sample;
   const DVec3 on_plane(point_on(*scene_, on->triangle, on->barycentric));
   const double per_m2 = 0.5 * (lobe.density(on_plane) + 1 / pane.area_m2);
+  const LightSample light = lights.sample_light(ways_[i].light, Vec3(on_plane), chosen.light);
+  if (!(max_component(light.estimate) > 0)) return sample;  // a spot that looks elsewhere
   const DVec3 leg = on_plane - from;
   const double length = glm::length(leg);
   const DVec3 direction = leg / length;
@@ -126,7 +134,6 @@ MirroredSample FrostedLights::sample(std::size_t i, const LightSet& lights, cons
   const bool front = glm::dot(DVec3(geometric_normal(*scene_, on->triangle)), pane.normal) > 0;
   const SurfacePoint surface =
       surface_at(*scene_, {on->triangle, static_cast<float>(length), on->barycentric, front}, Vec3(direction));
-  const LightSample light = lights.sample_light(ways_[i].light, Vec3(on_plane), chosen.light);
   const Shading shading(surface, -Vec3(direction));
   const float facets = shading.spread_pdf(light.direction);
   const Vec3 passed = surface.shade.transmission *
@@ -141,6 +148,13 @@ MirroredSample FrostedLights::sample(std::size_t i, const LightSet& lights, cons
   if (length > margin) add_leg({p, sample.direction, static_cast<float>(length - margin), true, false});
   add_leg({spawn_origin(*scene_, on->triangle, on->barycentric, light.direction), light.direction, light.distance});
   return sample;
+}
+
+double FrostedLights::worth(std::size_t i, const DVec3& centre, double radius) const {
+  const PlanarMirror& pane = panes_[ways_[i].pane];
+  if (!may_reach(i, centre, radius)) return 0;
+  const double nearest = std::max(0.0, glm::distance(middle_[ways_[i].pane], centre) - radius - extent_[ways_[i].pane]);
+  return power_[i] / (pane.area_m2 + nearest * nearest);
 }
 
 std::optional<PlanarMirrors::On> FrostedLights::point_by_area(std::size_t pane, const Vec2& v) const {

@@ -44,20 +44,28 @@ class FrostedLights {
   // plane that faces `direction`, with nothing in the way, `share` 1. No legs: none came. `lights` are the scene's.
   MirroredSample sample(std::size_t i, const LightSet& lights, const Vec3& p, const Chosen& chosen) const;
 
-  // Calls visit(i, weight) for ways whose weighted light is on average all light: for all of a few, for kVisited of
-  // more. u in [0, 1).
+  // What way number i may bring to points of a sphere, up to a factor: 0 where it brings none.
+  double worth(std::size_t i, const DVec3& centre, double radius) const;
+
+  // Calls visit(i, weight) for ways whose weighted light at points of a sphere is on average all light: for all of a
+  // few that reach it, for kVisited of more, by their worth. u in [0, 1).
   template <class Visit>
-  void choose(float u, const Visit& visit) const {
+  void choose(const DVec3& centre, double radius, float u, const Visit& visit) const {
     if (ways_.size() <= kVisited) {
-      for (std::size_t i = 0; i < ways_.size(); ++i) visit(i, 1.0f);
+      for (std::size_t i = 0; i < ways_.size(); ++i)
+        if (may_reach(i, centre, radius)) visit(i, 1.0f);
       return;
     }
-    for (std::size_t k = 0; k < kVisited; ++k) {
-      const double at = (static_cast<double>(k) + u) / kVisited * cumulative_.back();
-      const std::size_t i = std::min<std::size_t>(
-          std::upper_bound(cumulative_.begin(), cumulative_.end(), at) - cumulative_.begin(), ways_.size() - 1);
-      const double own = cumulative_[i] - (i > 0 ? cumulative_[i - 1] : 0);
-      visit(i, static_cast<float>(cumulative_.back() / (kVisited * own)));
+    thread_local std::vector<double> until;
+    until.assign(ways_.size(), 0);
+    double sum = 0;
+    for (std::size_t i = 0; i < ways_.size(); ++i) until[i] = sum += worth(i, centre, radius);
+    for (std::size_t k = 0; k < kVisited && sum > 0; ++k) {
+      const double at = (static_cast<double>(k) + u) / kVisited * sum;
+      const std::size_t i =
+          std::min<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin(), ways_.size() - 1);
+      const double own = until[i] - (i > 0 ? until[i - 1] : 0);
+      if (own > 0) visit(i, static_cast<float>(sum / (kVisited * own)));
     }
   }
 

@@ -28,6 +28,13 @@ inline bool is_frosted_pane(const ShadePoint& point) {
   return !(point.eta > 0) && point.alpha >= kMirrorAlpha && max_component(point.transmission) > 0;
 }
 
+// Whether a material is thin glass whose facets spread what is seen through it, whole everywhere: by its factors.
+inline bool may_be_frosted(const SceneMaterial& m) {
+  constexpr float kLeastRoughness = 0.01f;
+  return m.transmission > 0 && m.metallic < 1 && !m.solid && m.metal == Metal::kNone && !m.unlit &&
+         m.alpha_mode == AlphaMode::kOpaque && m.roughness >= kLeastRoughness;
+}
+
 // The glass that a path is in. Solids are taken to lie in air: of those that overlap the last one entered counts.
 class Medium {
  public:

@@ -32,6 +32,7 @@ class PathTracer {
     const bool refracted = sample.lobe == Lobe::kRefraction;
     eyes_ = eyes_ && sample.lobe != Lobe::kDiffuse;
     mirrored_ = mirrored_ && !(is_frosted(surface.shade) && (refracted || surface.shade.inside));
+    spread_ = spread_ && sample.lobe == Lobe::kTransmission;  // what a mirror shows glows on its own
     medium_.leave(surface.shade, refracted);
     squeeze_ *= sample.squeeze;
   }
@@ -186,7 +187,9 @@ class PathTracer {
   // Panes behind the first one let what shines on it pass straight, and have no glow of their own.
   Vec3 glow(const SurfacePoint& pane, const Shading& shading) {
     if (std::exchange(spread_, true)) return Vec3(0);
-    return throughput_ * sample_behind({t_, sampler_, rays_}, pane, shading);
+    const Vec3 light = throughput_ * sample_behind({t_, sampler_, rays_}, pane, shading);
+    if (t_.listener) t_.listener->add("frosted lamps", light);
+    return light;
   }
 
   // Beyond a glossy lobe light sampling stands in for a part of what is met, and looks straight through.
@@ -302,8 +305,9 @@ Vec3 refracted_light(const Transport& t, const SurfacePoint& surface, const Vec3
     const Vec3 direction = shading.spread(sampler.next2());
     const Vec3 passed =
         surface.shade.transmission * (1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, wo))));
-    return passed * sample_behind({t, sampler, rays}, surface, shading) +
-           path.follow({spawn_origin(surface, direction), direction}, 0, 1, passed).scattered;
+    const Vec3 glow = passed * sample_behind({t, sampler, rays}, surface, shading);
+    if (t.listener) t.listener->add("frosted lamps", glow);
+    return glow + path.follow({spawn_origin(surface, direction), direction}, 0, 1, passed).scattered;
   }
   const auto sample = shading.refracted(sampler.next2());
   if (!sample || !(max_component(sample->weight) > 0)) return Vec3(0);

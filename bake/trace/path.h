@@ -67,8 +67,7 @@ class PathListener {
   virtual void meet(const SurfacePoint& surface, const Vec3& throughput) = 0;
   // What follows counts so many times.
   virtual void weigh(float weight) = 0;
-  // Light comes to it: from "lamps", "mirrored lamps", "frosted lamps", "emission" or
-  // "sky", throughput in it.
+  // Light comes to it: from "lamps", "mirrored lamps", "frosted lamps", "emission" or "sky", throughput in it.
   virtual void add(const char* from, const Vec3& light) = 0;
 };
 

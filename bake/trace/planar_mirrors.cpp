@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "bake/trace/albedo.h"
+#include "bake/trace/glass.h"
 #include "formats/core/convex_hull.h"
 
 namespace oriel {
@@ -12,6 +14,7 @@ namespace {
 constexpr float kMirrorRoughness = 0.01f;  // squared: kMirrorAlpha
 constexpr double kFlat = 1e-6;             // 1 - the cosine between normals that are taken for one
 constexpr double kPlaneCells = 1e-5;       // of normals and, times the scene's size, offsets that are taken for one
+constexpr double kSheetCells = 1e-7;       // likewise of frosted panes' offsets
 constexpr double kEdge = 1e-6;             // of barycentric coordinates, outwards: no gap between two triangles
 constexpr int kMostCells = 64;             // along a side
 
@@ -23,9 +26,8 @@ bool may_mirror(const SceneMaterial& m) {
 }
 
 bool is_frosted_glass(const SceneMaterial& m) {
-  const bool thin = m.transmission > 0 && m.metallic < 1 && !m.solid && m.metal == Metal::kNone && !m.unlit;
-  const bool even = m.normal_texture.image < 0 && m.metallic_roughness_texture.image < 0 && m.gloss_texture.image < 0;
-  return thin && even && m.alpha_mode == AlphaMode::kOpaque && m.roughness >= kMirrorRoughness;
+  return may_be_frosted(m) && m.normal_texture.image < 0 && m.metallic_roughness_texture.image < 0 &&
+         m.gloss_texture.image < 0;
 }
 
 std::vector<char> materials_that(const Scene& scene, bool (*is)(const SceneMaterial&)) {
@@ -124,7 +126,8 @@ void PlanarMirrors::collect(const Scene& scene, const std::vector<char>& of_mate
       const double offset = glm::dot(normal, DVec3(scene.positions[scene.triangles[t].x]));
       PlaneKey key;
       for (int k = 0; k < 3; ++k) key[k] = std::llround(normal[k] / kPlaneCells);
-      key[3] = std::llround(offset / (kPlaneCells * size));
+      // The sheets of a frosted pane are two planes: one would stand in the way of the other.
+      key[3] = std::llround(offset / ((both_sides ? kSheetCells : kPlaneCells) * size));
       PlanarMirror& plane = planes[key];
       if (plane.triangles.empty()) plane.normal = glm::normalize(normal), plane.offset = offset;
       plane.triangles.push_back(t);
@@ -134,8 +137,10 @@ void PlanarMirrors::collect(const Scene& scene, const std::vector<char>& of_mate
     complete(scene, plane);
     mirrors_.push_back(std::move(plane));
   }
-  std::stable_sort(mirrors_.begin(), mirrors_.end(),
-                   [](const PlanarMirror& a, const PlanarMirror& b) { return a.area_m2 > b.area_m2; });
+  // Both sides of a surface stay together, so that no more than one is cut from the other.
+  std::stable_sort(mirrors_.begin(), mirrors_.end(), [](const PlanarMirror& a, const PlanarMirror& b) {
+    return std::tuple(-a.area_m2, a.triangles.front()) < std::tuple(-b.area_m2, b.triangles.front());
+  });
   mirrors_.resize(std::min(mirrors_.size(), kMost));
   for (const PlanarMirror& mirror : mirrors_) grids_.push_back(grid_of(scene, mirror));
 }

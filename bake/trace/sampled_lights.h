@@ -63,9 +63,9 @@ inline void book(const Transport& t, LightBook::Kind kind, std::uint32_t group, 
 // other frosted panes let it pass straight.
 inline Vec3 sample_behind(const Tracing& by, const SurfacePoint& pane, const Shading& shading) {
   const Transport& t = by.transport;
+  if (t.accel.scene().lights.empty()) return Vec3(0);
   const float u = by.sampler.next1();
   const Vec2 v = by.sampler.next2();
-  if (t.accel.scene().lights.empty()) return Vec3(0);
   const Vec3 origin = spawn_origin(pane, -pane.geometric_normal);
   const LightSample light = t.lights.sample(origin, u, v);
   if (light.pdf > 0 || !(max_component(light.estimate) > 0)) return Vec3(0);
@@ -109,8 +109,7 @@ void sample_frosted(const Tracing& by, const SurfacePoint& surface, const Reflec
   const FrostedLights& frosted = t.lights.frosted();
   if (frosted.empty()) return;
   const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
-  frosted.choose(sampler.next1(), [&](std::size_t i, float weight) {
-    if (!frosted.may_reach(i, DVec3(origin), 0)) return;
+  frosted.choose(DVec3(origin), 0, sampler.next1(), [&](std::size_t i, float weight) {
     const Vec2 of_light = sampler.next2();
     const MirroredSample light = frosted.sample(i, t.lights, origin, {of_light, sampler.next2()});
     if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;

@@ -8,11 +8,6 @@ namespace {
 
 enum GlowUnit { kGlowReflectance = 1, kGlowPolygons = 2, kGlowVisibility = 3, kGlowSeen = 4 };
 
-// Of a pane, in its reflector's space: negative where the eye is behind what is lit.
-float eye_height(const GpuReflector& pane, const View& view) {
-  return (pane.reflector_from_pack * view.eye).z;
-}
-
 }  // namespace
 
 Result<PaneGlow> PaneGlow::create(gpu::Dialect dialect) {
@@ -27,7 +22,7 @@ void PaneGlow::draw(const FrameContext& context, const GlassBody& body) const {
   const Material& m = pack.materials[body.material];
   for (const LitSide& side : body.lit) {
     const GpuReflector& pane = scene.frosted_panes()[side.pane];
-    if (!pane.emitters.polygons || !(eye_height(pane, view) < 0)) continue;
+    if (!pane.emitters.polygons) continue;
     gpu::RasterState state;
     state.depth_test = true;
     state.cull = gpu::Cull::kNone;
@@ -37,7 +32,6 @@ void PaneGlow::draw(const FrameContext& context, const GlassBody& body) const {
     program_.use();
     program_.set("u_clip_from_pack", view.clip_from_pack);
     program_.set("u_eye", view.eye);
-    program_.set("u_lit_normal", Vec3(pane.pack_from_reflector[2]));
     program_.set("u_tint", glm::clamp(m.base_color, Vec3(0), Vec3(1)) * ((1 - m.metallic) * m.transmission));
     program_.set("u_width", m.roughness * m.roughness);
     program_.set("u_reflectance_row", m.fresnel_map);

@@ -1,4 +1,4 @@
-// The light of points, spots and suns that flat frosted panes spread to the eye.
+// The light of points, spots and suns that frosted panes spread to the eye.
 #pragma once
 
 #include "player/gpu/program.h"
@@ -10,7 +10,7 @@ class PaneGlow {
  public:
   static Result<PaneGlow> create(gpu::Dialect dialect);
 
-  // Added to what a body shows, where its panes are lit from the other side than the eye is on. The frame is bound.
+  // Added to what a body shows, where it is lit from the other side than the eye is on. The frame is bound.
   void draw(const FrameContext& context, const GlassBody& body) const;
 
  private:

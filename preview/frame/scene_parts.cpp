@@ -1,6 +1,7 @@
 #include "preview/frame/scene_parts.h"
 
 #include "bake/scene/shade.h"
+#include "bake/trace/planar_mirrors.h"
 #include "formats/core/archive.h"
 
 namespace oriel {
@@ -13,7 +14,9 @@ SceneParts parts_of(const Scene& scene) {
     for (const std::uint32_t value : {s.first_triangle, s.triangle_count, may_transmit(m) ? 1u : 0u, m.solid ? 1u : 0u})
       surfaces.push_back(value);
   }
-  parts.shape = hash_of(scene.lower, scene.upper, scene.positions, scene.triangles, scene.twin, surfaces);
+  std::vector<char> frosted;
+  if (!scene.lights.empty()) frosted = PlanarMirrors::frosted_panes(scene).triangles_of(scene);
+  parts.shape = hash_of(scene.lower, scene.upper, scene.positions, scene.triangles, scene.twin, surfaces, frosted);
   parts.vertices = hash_of(parts.shape, scene.normals, scene.uv0, scene.uv1, scene.colors, scene.tangents);
   Hasher images, lighting;
   Archive to_images(images), to_lighting(lighting);

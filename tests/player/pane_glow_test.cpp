@@ -34,16 +34,18 @@ Pack lit_pane(float roughness, const Vec3& light, std::uint8_t left = 255, std::
 }
 
 // D G1 / (4 cosθo) of both facets that turn wo to wi, times the light's irradiance at p.
-double expected_glow(double roughness, const DVec3& eye, const DVec3& p, const DVec3& light) {
+// n: unit, on the eye's side.
+double expected_glow(double roughness, const DVec3& eye, const DVec3& p, const DVec3& light,
+                     const DVec3& n = {0, 0, 1}) {
   const DVec3 wo = glm::normalize(eye - p), wi = glm::normalize(light - p);
   const double alpha = roughness * roughness, a2 = alpha * alpha;
+  const double cos_o = glm::dot(wo, n);
   double density = 0;
-  for (const double z : {-wi.z, wi.z}) {
-    DVec3 h = wo + DVec3(wi.x, wi.y, z);
-    if (h.z <= 0) continue;
-    h = glm::normalize(h);
-    const double d = a2 / (kPiD * std::pow(h.z * h.z * (a2 - 1) + 1, 2));
-    density += d * 2 * wo.z / (wo.z + std::sqrt(a2 + (1 - a2) * wo.z * wo.z)) / (4 * wo.z);
+  for (const DVec3& turned : {wi - 2 * glm::dot(wi, n) * n, wi}) {
+    const double cos_h = glm::dot(wo + turned, n) / glm::length(wo + turned);
+    if (!(cos_h > 0)) continue;
+    const double d = a2 / (kPiD * std::pow(cos_h * cos_h * (a2 - 1) + 1, 2));
+    density += d * 2 * cos_o / (cos_o + std::sqrt(a2 + (1 - a2) * cos_o * cos_o)) / (4 * cos_o);
   }
   const DVec3 facing = glm::normalize(-light), way = light - p;
   return density * kRadiance * 4 * kHalf * kHalf * std::abs(glm::dot(facing, wi)) / glm::dot(way, way);
@@ -68,6 +70,19 @@ TEST_F(PaneGlowTest, IsWhatFacetsSend) {
             EXPECT_NEAR(found[c], expected * double{kTint[c]}, 0.02 * expected + 1e-4)
                 << roughness << " light " << light.z << " eye " << eye.z << " at " << p.x;
         }
+}
+
+// Of a part of a bent pane, whose normals are not its plane's.
+TEST_F(PaneGlowTest, GoesByNormals) {
+  const DVec3 n = glm::normalize(DVec3(0.3, -0.1, 1));
+  for (const bool turned : {false, true})
+    for (const Vec3& light : {Vec3(0, 0, -2), Vec3(1, 0.5f, -1)})
+      for (const Vec3& eye : {Vec3(0, 0, 1.5f), Vec3(-0.8f, 0.3f, 1)}) {
+        Pack pack = lit_pane(0.5f, light);
+        for (Vec3& normal : pack.mesh.normals) normal = Vec3(turned ? -n : n);
+        const double expected = expected_glow(0.5, DVec3(eye), DVec3(0), DVec3(light), n);
+        EXPECT_NEAR(glow(pack, eye, Vec3(0)).g, expected * double{kTint.g}, 0.02 * expected) << light.z << " " << eye.z;
+      }
 }
 
 TEST_F(PaneGlowTest, GoesByWhatNodesSee) {

@@ -1,5 +1,6 @@
 // The player's own shaders, as text: one source for desktop and browser.
 import lib_color from '../../shaders/lib/color.glsl';
+import lib_distance_alpha from '../../shaders/lib/distance_alpha.glsl';
 import lib_fill from '../../shaders/lib/fill.glsl';
 import lib_fullscreen from '../../shaders/lib/fullscreen.glsl';
 import lib_kernel from '../../shaders/lib/kernel.glsl';
@@ -56,6 +57,7 @@ import web_average from '../shaders/average.frag';
 
 const files: Record<string, string> = {
   'lib/color.glsl': lib_color,
+  'lib/distance_alpha.glsl': lib_distance_alpha,
   'lib/fill.glsl': lib_fill,
   'lib/fullscreen.glsl': lib_fullscreen,
   'lib/kernel.glsl': lib_kernel,

@@ -198,12 +198,15 @@ void DirectGroup::aim_at_mirrored(std::uint32_t i) {
 // Light that flat frosted panes spread has neither a closed form nor sharp shadows.
 void DirectGroup::sample_frosted() {
   const FrostedLights& frosted = d_.t_.lights.frosted();
+  const auto [centre, radius] = sphere_about_points();
+  bool reached = false;
+  for (std::size_t i = 0; !reached && i < frosted.size(); ++i) reached = frosted.may_reach(i, centre, radius);
+  if (!reached) return;
   for (std::uint64_t pick = 0; pick < kFrosted; ++pick)
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
       const Point& point = points_[p];
       Sampler sampler(d_.seed_ + seeds::kFrostedLight + pick, stream_of(list_[point.texel], point.half), point.k);
-      frosted.choose(sampler.next1(), [&](std::size_t i, float weight) {
-        if (!frosted.may_reach(i, DVec3(point.site.origin), 0)) return;
+      frosted.choose(DVec3(point.site.origin), 0, sampler.next1(), [&](std::size_t i, float weight) {
         const Vec2 of_light = sampler.next2();
         const MirroredSample s = frosted.sample(i, d_.t_.lights, point.site.origin, {of_light, sampler.next2()});
         const float share = weight * incidence(point.site.receiver(), s.direction) / static_cast<float>(kFrosted);
@@ -213,7 +216,8 @@ void DirectGroup::sample_frosted() {
         shots_.push_back({p, value, s.direction, s.group, s.legs});
       });
     }
-  finish_sampled();
+  const auto of_a_day = [](const Light& light) { return light.hour >= 0; };
+  finish_sampled(std::ranges::any_of(scene().lights, of_a_day) ? static_cast<float>(scene().day.lit()) : 1.0f);
 }
 
 void DirectGroup::shoot(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group) {
@@ -300,7 +304,7 @@ void DirectGroup::sample_lights(const Sample& sample) {
   finish_sampled();
 }
 
-void DirectGroup::finish_sampled() {
+void DirectGroup::finish_sampled(float hours) {
   trace();
   const auto n = static_cast<float>(per_half_);
   for (Tally& t : tallies_) {
@@ -308,7 +312,7 @@ void DirectGroup::finish_sampled() {
     t.total += value;
     add_moments(t, value);
     const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
-    t.variance += 0.25f * difference * difference;
+    t.variance += 0.25f * hours * difference * difference;
     t.difference += difference;
     forget_light(t);
   }

@@ -80,7 +80,8 @@ class DirectGroup {
   // Light without a closed form: one sampled light a point, combined with the gather's own hits on it.
   template <class Sample>
   void sample_lights(const Sample& sample);
-  void finish_sampled();
+  // hours: as hours_of().
+  void finish_sampled(float hours = 1);
   // The same for points, spots and suns, which no ray meets.
   template <class Sample>
   void sample_punctual(const Sample& sample);

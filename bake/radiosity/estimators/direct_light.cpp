@@ -26,7 +26,8 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
   const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
   UnitLoop loop{.stage = "direct light", .count = (list.size() + kGroup - 1) / kGroup};
   const std::size_t punctual = many_punctual_ ? DirectGroup::kPicks : t_.accel.scene().lights.size();
-  loop.rays = static_cast<double>(kGroup * kHalves * (polygons_.size() + punctual)) * per_half;
+  const std::size_t frosted = 2 * DirectGroup::kFrosted * std::min<std::size_t>(16, t_.lights.frosted().size());
+  loop.rays = static_cast<double>(kGroup * kHalves * (polygons_.size() + punctual + frosted)) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) { key(part(g), per_half, !sums.moments.empty(), texels_.eyes); };
   loop.compute = [&](std::size_t g) {
     DirectGroup group(*this, part(g), per_half, !sums.moments.empty());

@@ -56,7 +56,9 @@ class DirectLight {
   // polygons than it pays to visit one by one), see LightSet.
   bool closed_form() const { return closed_form_; }
   // Some light is found by chance: emitters without closed forms, the sky, many punctual lights.
-  bool samples_lights() const { return !closed_form_ || t_.lights.samples_sky() || many_punctual_; }
+  bool samples_lights() const {
+    return !closed_form_ || t_.lights.samples_sky() || many_punctual_ || !t_.lights.frosted().empty();
+  }
 
   // Estimates the listed texels anew with so many samples a half and light. Error kStopped.
   Status estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, const Stage& stage,

@@ -189,6 +189,8 @@ class LampWalk {
     medium_.leave(surface.shade, refracted);
     if (sample->lobe == Lobe::kTransmission) {
       power_ *= sample->weight;
+      // What a frosted pane spreads is found by light sampling.
+      if (punctual_ && bounces_ == 0 && t_.lights.frosted().spreads(hit.triangle)) power_ = Vec3(0);
     } else {
       const Vec3 wo = shading.world(*sample);
       power_ *= refracted || surface.shade.inside

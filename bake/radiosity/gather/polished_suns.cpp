@@ -82,7 +82,7 @@ PolishedSuns::Start PolishedSuns::start_on(const Target& target, Sampler& sample
   if (!(cosine > 0) && (!material.double_sided || material.solid)) return start;
   const Vec3 origin = spawn_origin(scene, target.triangle, at, sun.direction);
   ++rays;
-  const Vec3 lux = sun.estimate * accel_.transmittance({origin, sun.direction, sun.distance});
+  const Vec3 lux = sun.estimate * accel_.transmittance({origin, sun.direction, sun.distance, true, false});
   const auto area = static_cast<float>(triangle_area(scene, target.triangle));
   start.particle = {{origin, -sun.direction}, lux * (std::abs(cosine) * area)};
   start.particle.punctual = true;
