@@ -44,16 +44,18 @@ class GlassPass {
   // Where it is, by pixel; then its light; then that over the target. state: as its faces are seen.
   void draw_surface(const FrameContext& context, const GlassBody& body, gpu::RasterState state) const;
   void shade(const FrameContext& context, std::size_t body, bool inside) const;
-  void set_body(const GpuScene& scene, const GlassBody& body, const FrameOptions& options) const;
+  void set_body(const gpu::Program& light, const GpuScene& scene, const GlassBody& body,
+                const FrameOptions& options) const;
   // by_share: as shown_in() has them.
   void choose_windows(const FrameContext& context, const ReflectionTarget& target,
                       std::span<const std::pair<float, std::size_t>> by_share);
   // What rays see through the window, into the canvas.
   Status draw_through(const FrameContext& context, const GlassWindow& window, const ScenePass& scene_pass);
-  void set_window(const std::optional<GlassWindow>& window) const;
+  void set_window(const gpu::Program& light, const std::optional<GlassWindow>& window) const;
 
   gpu::Dialect dialect_{};
   gpu::Program copy_, surface_, light_, glass_;
+  std::optional<gpu::Program> tree_light_;  // of bodies that have a tree; compiled when the first is seen
   gpu::VertexArray no_vertices_;
   std::vector<Body> bodies_;  // by GpuScene::glass()
   GlassCubes cubes_;

@@ -83,13 +83,14 @@ TEST_F(GlassMirrorTest, SlabShiftsWhatLiesBehind) {
 struct Kind {
   const char* name;
   float roughness;
-  bool ball, pane;
+  bool ball, pane, cup = false;
 };
 constexpr Kind kKinds[] = {{"block", 0, false, false},
                            {"ball", 0, true, false},
                            {"frosted block", 0.3f, false, false},
                            {"frosted ball", 0.3f, true, false},
-                           {"frosted pane", 0.3f, false, true}};
+                           {"frosted pane", 0.3f, false, true},
+                           {"cup", 0, false, false, true}};
 
 // Of green glass in a room of six colours; the frosted pane is clear of colour.
 Pack room_with(const Kind& kind) {
@@ -98,6 +99,8 @@ Pack room_with(const Kind& kind) {
     pack.solids.clear();
     pack.materials[0].double_sided = true;
     testing::add_quad(pack, {-0.5f, -0.6f, 0}, {1, 0, 0}, {0, 1.2f, 0}, 0, -1);
+  } else if (kind.cup) {
+    add_cup(pack);
   } else if (kind.ball) {
     add_ball(pack, Vec3(0), 0.6f);
   } else {
