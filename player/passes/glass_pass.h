@@ -1,7 +1,7 @@
 // Bodies of solid glass: each shows what the eye sees through it, refracted, absorbed and, frosted, blurred by the
-// distance behind it. Rays that leave it see the frame so far, by its depth, beyond it the scene as drawn from the
-// apparent eye through the face that they entered by, and where that does not show it as drawn once from the body's
-// middle. Frosted panes likewise, without refraction.
+// distance behind it. Rays that leave it see the frame so far, or the image of the reflector that shows it, by its
+// depth, beyond it the scene as drawn from the apparent eye through the face that they entered by, and where that does
+// not show it as drawn once from the body's middle. Frosted panes likewise, without refraction.
 #pragma once
 
 #include <optional>

@@ -123,6 +123,33 @@ TEST_F(GlassMirrorTest, IsAsSeenFromBehindTheMirror) {
   }
 }
 
+// One that shows a part of what the eye before sees: the reflector's image is smaller than the frame, and lies aside.
+TEST_F(GlassMirrorTest, IsTheSameInASmallMirror) {
+  const Camera camera = camera_at({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f);
+  const Plate plate{{0.93f, 0.57f, 1.2f}, {0, 0, -1}, 0.07f};
+  const auto within = [&](int column, int row) {
+    const Vec3 d = pixel_ray(camera, 4 * column + 2, 4 * row + 2, 160, 120);
+    const Vec3 at = camera.eye + d * ((plate.middle.z - camera.eye.z) / d.z) - plate.middle;
+    return std::max(std::fabs(at.x), std::fabs(at.y)) < 0.85f * plate.half;
+  };
+  for (const Kind& kind : kKinds) {
+    Pack pack = room_with(kind);
+    plate.add(pack, add_silver(pack));
+    const Picture direct = draw(pack, camera, 160, 120);
+    const Picture seen = flipped(draw(pack, plate.mirror(camera), 160, 120));
+    int off = 0, all = 0;
+    for (int row = 0; row < 30; ++row)
+      for (int column = 0; column < 40; ++column) {
+        if (!within(column, row)) continue;
+        off += max_component(glm::abs(mean_at(direct, column, row) - mean_at(seen, column, row))) > 3;
+        ++all;
+      }
+    EXPECT_GT(all, 60);
+    EXPECT_LT(off, all / 20) << kind.name << " of " << all;
+    EXPECT_EQ(seen.stats.mirrored_glass, 1u) << kind.name;
+  }
+}
+
 // Two mirrors turn nothing round.
 TEST_F(GlassMirrorTest, IsAsSeenFromBehindTwoMirrors) {
   const Camera camera = camera_at({1.2f, 0.2f, 1.5f}, Vec3(0), 0.4f);
