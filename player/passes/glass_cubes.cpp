@@ -5,6 +5,7 @@
 
 #include "player/gpu/raster_state.h"
 #include "player/passes/glass_canvas.h"
+#include "player/scene/glass_tree.h"
 #include "player/scene/surface.h"
 
 namespace oriel {
@@ -23,6 +24,12 @@ Camera face_camera(const Vec3& eye, int face) {
   camera.up = face / 2 == 1 ? Vec3(0, 0, camera.forward.y) : Vec3(0, -1, 0);
   camera.vertical_fov_rad = 0.5f * kPi;
   return camera;
+}
+
+gpu::Texture2d texture_of(std::vector<Vec4> texels) {
+  const std::size_t rows = (texels.size() + kGlassTreeWidth - 1) / kGlassTreeWidth;
+  texels.resize(rows * kGlassTreeWidth);
+  return {gpu::kRgba32f, kGlassTreeWidth, static_cast<int>(rows), texels.data()};
 }
 
 }  // namespace
@@ -46,7 +53,9 @@ Status GlassCubes::make(const FrameContext& context, const ScenePass& scene_pass
   const GlassBody& glass = scene.glass()[body];
   Cubes& cubes = bodies_[body];
   const bool whole = !scene.images().state().busy;
-  if (glass.planes.empty() && !glass.pane && !cubes.shape) ORIEL_TRY_VOID(draw_shape(context, body));
+  if (!glass.tree.empty() && !cubes.tree) cubes.tree = texture_of(glass.tree);
+  const bool curved = glass.planes.empty() && glass.tree.empty() && !glass.pane;
+  if (curved && !cubes.shape) ORIEL_TRY_VOID(draw_shape(context, body));
   if (share < kLeastOfPicture || (cubes.around_of == scene.serial() && (cubes.whole || !whole))) return {};
   const auto others = std::ranges::count_if(bodies_, [](const Cubes& c) { return static_cast<bool>(c.around); });
   if (!cubes.around && others >= kMostAround) return {};
@@ -113,7 +122,7 @@ std::size_t GlassCubes::nearest_around(const GpuScene& scene, std::size_t body) 
 
 std::uint64_t GlassCubes::bytes() const {
   std::uint64_t sum = depth_.bytes();
-  for (const Cubes& cubes : bodies_) sum += cubes.shape.bytes() + cubes.around.bytes();
+  for (const Cubes& cubes : bodies_) sum += cubes.shape.bytes() + cubes.tree.bytes() + cubes.around.bytes();
   return sum;
 }
 

@@ -1,5 +1,5 @@
-// What is drawn once around the middles of glass: the surface of curved bodies, by which rays find their way out, and
-// the scene as they see it beyond the frame.
+// By what rays find their way out of glass: the surface of curved bodies around their middles, or the triangles of
+// hollow and branched ones; and the scene around as they see it beyond the frame. Each is made once.
 #pragma once
 
 #include "player/passes/scene_pass.h"
@@ -17,6 +17,7 @@ class GlassCubes {
   // framebuffer of its own bound. Errors of the driver.
   Status make(const FrameContext& context, const ScenePass& scene_pass, std::size_t body, float share);
   const gpu::CubeTexture& shape(std::size_t body) const { return bodies_[body].shape; }
+  const gpu::Texture2d& tree(std::size_t body) const { return bodies_[body].tree; }
   const gpu::CubeTexture& around(std::size_t body) const { return bodies_[body].around; }
   // The body whose surroundings stand for this one's.
   std::size_t nearest_around(const GpuScene& scene, std::size_t body) const;
@@ -25,6 +26,7 @@ class GlassCubes {
  private:
   struct Cubes {
     gpu::CubeTexture shape;
+    gpu::Texture2d tree;
     gpu::CubeTexture around;  // as seen from its centre
     std::uint64_t around_of = 0;
     bool whole = false;  // all images were there

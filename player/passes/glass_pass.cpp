@@ -16,7 +16,8 @@ enum GlassUnit {
   kGlassNormals = 4,
   kGlassShape = 5,
   kGlassTints = 6,
-  kGlassThrough = 7
+  kGlassThrough = 7,
+  kGlassTree = 8
 };
 
 constexpr float kMostIor = 10;              // beyond it numbers run out
@@ -98,6 +99,9 @@ Status GlassPass::prepare(const FrameContext& context, const ScenePass& scene_pa
   const std::vector<std::pair<float, std::size_t>> seen = shown_in(context, target);
   if (seen.empty()) return {};
   ORIEL_TRY_VOID(compile());
+  if (!tree_light_ && std::ranges::any_of(scene.glass(), [](const GlassBody& b) { return !b.tree.empty(); })) {
+    ORIEL_TRY(tree_light_, gpu::Program::create("screen_glass", dialect_, "TREE"));
+  }
   cubes_.start(scene);
   bodies_.resize(scene.glass().size());
   few_looks_ = options.coarse || target.blurs || target.mirrors > 1 || target.reflectance < kMirroring;
@@ -167,16 +171,16 @@ Status GlassPass::draw_through(const FrameContext& context, const GlassWindow& w
 }
 
 // Depth there is as clip_from_view_to() has it.
-void GlassPass::set_window(const std::optional<GlassWindow>& window) const {
-  light_.set("u_window", window ? 1 : 0);
+void GlassPass::set_window(const gpu::Program& light, const std::optional<GlassWindow>& window) const {
+  light.set("u_window", window ? 1 : 0);
   if (!window) return;
   const View& view = window->view;
   const Vec2 size(canvas_->size());
-  light_.set("u_window_from_pack", view.clip_from_pack);
-  light_.set("u_window_size", size);
-  light_.set("u_window_tangents", Vec4(view.tangents, view.centre));
-  light_.set("u_window_depth", Vec3(-view.clip_from_view[2][2], view.clip_from_view[3][2], kClosest));
-  light_.set("u_window_pixels", 0.5f * std::min(size.x / view.tangents.x, size.y / view.tangents.y));
+  light.set("u_window_from_pack", view.clip_from_pack);
+  light.set("u_window_size", size);
+  light.set("u_window_tangents", Vec4(view.tangents, view.centre));
+  light.set("u_window_depth", Vec3(-view.clip_from_view[2][2], view.clip_from_view[3][2], kClosest));
+  light.set("u_window_pixels", 0.5f * std::min(size.x / view.tangents.x, size.y / view.tangents.y));
 }
 
 void GlassPass::draw_surface(const FrameContext& context, const GlassBody& body, gpu::RasterState state) const {
@@ -196,34 +200,39 @@ void GlassPass::draw_surface(const FrameContext& context, const GlassBody& body,
   for (const DrawRange& range : body.ranges) draw_indices(range.first_index, range.index_count, stats);
 }
 
-void GlassPass::set_body(const GpuScene& scene, const GlassBody& body, const FrameOptions& options) const {
+void GlassPass::set_body(const gpu::Program& light, const GpuScene& scene, const GlassBody& body,
+                         const FrameOptions& options) const {
   const Material& m = scene.pack().materials[body.material];
   const SolidGlass solid = body.pane ? SolidGlass{body.material, m.base_color * ((1 - m.metallic) * m.transmission)}
                                      : scene.pack().solids[body.solid];
   const bool frosted = blurs(m, options);
-  light_.set("u_pane", body.pane ? 1 : 0);
-  light_.set("u_tint", glm::clamp(solid.tint, Vec3(0), Vec3(1)));
-  light_.set("u_absorption", solid.absorption);
-  light_.set("u_ior", std::clamp(m.ior, 1.0f, kMostIor));
-  light_.set("u_width", frosted ? m.roughness * m.roughness : 0.0f);
-  light_.set("u_looks", !frosted ? 1 : few_looks_ ? kCoarseLooks : body.pane ? kPaneLooks : kLooks);
-  light_.set("u_turn", static_cast<float>(glm::fract(0.618033988749895 * options.look)));
-  light_.set("u_centre", body.centre);
-  light_.set("u_radius", body.radius);
-  light_.set("u_plane_count", static_cast<int>(body.planes.size()));
-  if (!body.planes.empty()) light_.set("u_planes", std::span<const Vec4>(body.planes));
-  light_.set("u_reflectance_row", m.fresnel_map);
+  light.set("u_pane", body.pane ? 1 : 0);
+  light.set("u_tint", glm::clamp(solid.tint, Vec3(0), Vec3(1)));
+  light.set("u_absorption", solid.absorption);
+  light.set("u_ior", std::clamp(m.ior, 1.0f, kMostIor));
+  light.set("u_width", frosted ? m.roughness * m.roughness : 0.0f);
+  light.set("u_looks", !frosted                          ? 1
+                       : few_looks_                      ? kCoarseLooks
+                       : body.pane || !body.tree.empty() ? kPaneLooks
+                                                         : kLooks);
+  light.set("u_turn", static_cast<float>(glm::fract(0.618033988749895 * options.look)));
+  light.set("u_centre", body.centre);
+  light.set("u_radius", body.radius);
+  light.set("u_plane_count", static_cast<int>(body.planes.size()));
+  if (!body.planes.empty()) light.set("u_planes", std::span<const Vec4>(body.planes));
+  light.set("u_reflectance_row", m.fresnel_map);
   if (m.fresnel_map < 0) return;
   const auto& table = scene.pack().fresnel_maps[static_cast<std::size_t>(m.fresnel_map)].table;
-  light_.set("u_reflectance_count", static_cast<int>(table.size()));
+  light.set("u_reflectance_count", static_cast<int>(table.size()));
 }
 
 void GlassPass::shade(const FrameContext& context, std::size_t index, bool inside) const {
   const auto& [scene, view, options, stats] = context;
   const GlassBody& body = scene.glass()[index];
+  const gpu::Program& light = body.tree.empty() ? light_ : *tree_light_;
   canvas_->shaded_framebuffer.bind();
-  light_.use();
-  set_body(scene, body, options);
+  light.use();
+  set_body(light, scene, body, options);
   const std::size_t around = cubes_.nearest_around(scene, index);
   scene.reflectance_tables().bind(kGlassReflectance);
   canvas_->places.bind(kGlassPlaces);
@@ -231,23 +240,24 @@ void GlassPass::shade(const FrameContext& context, std::size_t index, bool insid
   canvas_->tints.bind(kGlassTints);
   canvas_->behind.bind(kGlassBehind);
   cubes_.around(around).bind(kGlassAround);
-  if (!body.pane) cubes_.shape(index).bind(kGlassShape);
+  if (!body.pane && body.tree.empty()) cubes_.shape(index).bind(kGlassShape);
+  if (!body.tree.empty()) cubes_.tree(index).bind(kGlassTree);
   canvas_->through.bind(kGlassThrough);
   constexpr std::pair<const char*, GlassUnit> kUnits[] = {
       {"u_places", kGlassPlaces}, {"u_normals", kGlassNormals},         {"u_tints", kGlassTints},
       {"u_behind", kGlassBehind}, {"u_reflectance", kGlassReflectance}, {"u_around", kGlassAround},
-      {"u_shape", kGlassShape},   {"u_through", kGlassThrough}};
-  for (const auto& [name, unit] : kUnits) light_.set(name, static_cast<int>(unit));
-  light_.set("u_inside", inside ? 1 : 0);
-  set_window(bodies_[index].window);
-  light_.set("u_clip_from_pack", view.clip_from_view * view.view_from_pack);  // no mirror's near plane
-  light_.set("u_eye", view.eye);
-  light_.set("u_levels", has_levels_ ? 1 : 0);
-  light_.set("u_behind_size", Vec2(static_cast<float>(view.width), static_cast<float>(view.height)));
-  light_.set("u_far", 2 * (view.far + scene.bounds().radius()));
-  light_.set("u_pixels_per_tangent", 0.5f * static_cast<float>(view.height) / view.tangents.y);
-  light_.set("u_around_centre", scene.glass()[around].centre);
-  light_.set("u_around_size", static_cast<float>(kAroundSize));
+      {"u_shape", kGlassShape},   {"u_through", kGlassThrough},         {"u_tree", kGlassTree}};
+  for (const auto& [name, unit] : kUnits) light.set(name, static_cast<int>(unit));
+  light.set("u_inside", inside ? 1 : 0);
+  set_window(light, bodies_[index].window);
+  light.set("u_clip_from_pack", view.clip_from_view * view.view_from_pack);  // no mirror's near plane
+  light.set("u_eye", view.eye);
+  light.set("u_levels", has_levels_ ? 1 : 0);
+  light.set("u_behind_size", Vec2(static_cast<float>(view.width), static_cast<float>(view.height)));
+  light.set("u_far", 2 * (view.far + scene.bounds().radius()));
+  light.set("u_pixels_per_tangent", 0.5f * static_cast<float>(view.height) / view.tangents.y);
+  light.set("u_around_centre", scene.glass()[around].centre);
+  light.set("u_around_size", static_cast<float>(kAroundSize));
   clear_all(Vec4(0));
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());

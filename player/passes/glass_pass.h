@@ -1,7 +1,7 @@
 // Bodies of solid glass: each shows what the eye sees through it, refracted, absorbed and, frosted, blurred by the
-// distance behind it. Rays that leave it see the frame so far, by its depth, beyond it the scene as drawn from the
-// apparent eye through the face that they entered by, and where that does not show it as drawn once from the body's
-// middle. Frosted panes likewise, without refraction.
+// distance behind it. Rays that leave it see the frame so far, or the image of the reflector that shows it, by its
+// depth, beyond it the scene as drawn from the apparent eye through the face that they entered by, and where that does
+// not show it as drawn once from the body's middle. Frosted panes likewise, without refraction.
 #pragma once
 
 #include <optional>
@@ -45,17 +45,19 @@ class GlassPass {
   // Where it is, by pixel; then its light; then that over the target. state: as its faces are seen.
   void draw_surface(const FrameContext& context, const GlassBody& body, gpu::RasterState state) const;
   void shade(const FrameContext& context, std::size_t body, bool inside) const;
-  void set_body(const GpuScene& scene, const GlassBody& body, const FrameOptions& options) const;
+  void set_body(const gpu::Program& light, const GpuScene& scene, const GlassBody& body,
+                const FrameOptions& options) const;
   // by_share: as shown_in() has them.
   void choose_windows(const FrameContext& context, const ReflectionTarget& target,
                       std::span<const std::pair<float, std::size_t>> by_share);
   // What rays see through the window, into the canvas.
   Status draw_through(const FrameContext& context, const GlassWindow& window, const ScenePass& scene_pass);
-  void set_window(const std::optional<GlassWindow>& window) const;
+  void set_window(const gpu::Program& light, const std::optional<GlassWindow>& window) const;
 
   gpu::Dialect dialect_{};
   gpu::Program copy_, surface_, light_, glass_;
   PaneGlow glow_;
+  std::optional<gpu::Program> tree_light_;  // of bodies that have a tree; compiled when the first is seen
   gpu::VertexArray no_vertices_;
   std::vector<Body> bodies_;  // by GpuScene::glass()
   GlassCubes cubes_;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "formats/core/disjoint_sets.h"
+#include "player/scene/glass_tree.h"
 
 namespace oriel {
 namespace {
@@ -21,10 +22,13 @@ struct Triangle {
   std::int32_t page;
 };
 
+struct ByPlace {
+  bool operator()(const Vec3& a, const Vec3& b) const { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+};
+
 // Triangles that share positions, in the order of their first ones.
 std::vector<std::vector<Triangle>> connected(const Mesh& mesh, const std::vector<Triangle>& triangles) {
-  const auto less = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
-  std::map<Vec3, std::size_t, decltype(less)> first(less);  // a triangle there
+  std::map<Vec3, std::size_t, ByPlace> first;  // a triangle there
   DisjointSets joined(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const std::uint32_t corner : triangles[t].corners)
@@ -64,6 +68,35 @@ bool is_seen_from(const Mesh& mesh, const std::vector<Triangle>& shell, const DV
     if (!(glm::dot(normal, DVec3(mesh.positions[t.corners[0]]) - middle) > 0)) hidden += glm::length(normal);
   }
   return area > 0 && hidden <= kHidden * area;
+}
+
+// Whether they enclose something that their fronts face away from: at each edge as many go one way as the other.
+bool encloses(const Mesh& mesh, const std::vector<Triangle>& shell) {
+  std::map<Vec3, int, ByPlace> numbers;
+  std::map<std::pair<int, int>, int> edges;
+  double volume = 0;
+  const DVec3 origin(mesh.positions[shell.front().corners[0]]);
+  for (const Triangle& t : shell) {
+    std::array<int, 3> at;
+    for (std::size_t c = 0; c < 3; ++c)
+      at[c] = numbers.try_emplace(mesh.positions[t.corners[c]], static_cast<int>(numbers.size())).first->second;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int a = at[c], b = at[(c + 1) % 3];
+      if (a != b) edges[std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+    volume += glm::dot(normal_of(mesh, t), DVec3(mesh.positions[t.corners[0]]) - origin);
+  }
+  return volume > 0 && std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
+}
+
+std::vector<GlassTriangle> triangles_of(const Mesh& mesh, const std::vector<Triangle>& shell) {
+  std::vector<GlassTriangle> out;
+  for (const Triangle& t : shell) {
+    GlassTriangle& triangle = out.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c)
+      triangle.corners[c] = mesh.positions[t.corners[c]], triangle.normals[c] = mesh.normals[t.corners[c]];
+  }
+  return out;
 }
 
 // None where there are too many, or where the body is not convex.
@@ -111,7 +144,8 @@ bool is_frosted_pane(const Material& m) {
 
 std::optional<GlassBody> body_of(const Mesh& mesh, const std::vector<Triangle>& shell, const GlassBody& kind) {
   const DVec3 middle = middle_of(mesh, shell);
-  if (!kind.pane && !is_seen_from(mesh, shell, middle)) return std::nullopt;
+  const bool star = kind.pane || is_seen_from(mesh, shell, middle);
+  if (!star && (shell.size() > kMaxTreeTriangles || !encloses(mesh, shell))) return std::nullopt;
   GlassBody body = kind;
   body.centre = Vec3(middle);
   for (const Triangle& t : shell)
@@ -120,7 +154,8 @@ std::optional<GlassBody> body_of(const Mesh& mesh, const std::vector<Triangle>& 
       body.radius = std::max(body.radius, glm::length(mesh.positions[corner] - body.centre));
     }
   if (!(body.radius > 0)) return std::nullopt;
-  if (!kind.pane) body.planes = planes_of(mesh, shell, body.radius);
+  if (!star) body.tree = glass_tree(triangles_of(mesh, shell));
+  if (star && !kind.pane) body.planes = planes_of(mesh, shell, body.radius);
   return body;
 }
 

@@ -215,15 +215,18 @@ vec4 look(vec3 origin, vec3 direction, float spread, bool frosted) {
   return vec4(light_around(origin, direction, spread), 1.0);
 }
 
-float leave(vec3 p, vec3 d, out vec3 normal) {
-  if (u_plane_count > 0) return leave_planes(u_planes, u_plane_count, p, d, normal);
-  return leave_shape(u_shape, u_radius, p - u_centre, d, normal);
-}
-
 // The largest channel of R along the ray that has this cosine outside.
 vec3 reflected_at(float cos_theta) {
   if (u_reflectance_row < 0) return vec3(0.0);
   return reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta);
+}
+
+#ifdef TREE
+#include "passes/screen_glass_tree.glsl"
+#else
+float leave(vec3 p, vec3 d, out vec3 normal) {
+  if (u_plane_count > 0) return leave_planes(u_planes, u_plane_count, p, d, normal);
+  return leave_shape(u_shape, u_radius, p - u_centre, d, normal);
 }
 
 // Light that comes out of the glass within, along -d at p; a: the share of it that is known. at: of the facets that are met.
@@ -255,6 +258,7 @@ vec4 light_within(vec3 p, vec3 d, vec2 at, float spread) {
   if (max_channel(weight) > kLeast) sum += weight * u_tint * light_around(p, out_of, max(spread, 0.1));
   return vec4(sum, max(known, 0.0));
 }
+#endif
 
 // The direction in the glass of an eye ray, and the first one beyond it: how far those of neighbouring pixels part.
 float pixel_spread(vec3 p, vec3 d) {

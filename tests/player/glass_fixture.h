@@ -137,6 +137,43 @@ inline void add_ball(Pack& pack, const Vec3& centre, float radius, bool inwards 
   mesh.parts.push_back(part);
 }
 
+inline void add_triangle(Pack& pack, const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) {
+  Mesh& mesh = pack.mesh;
+  MeshPart part;
+  part.first_index = static_cast<std::uint32_t>(mesh.indices.size());
+  part.index_count = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+    mesh.positions.push_back(corners[i]);
+    mesh.normals.push_back(normals[i]);
+    mesh.uvs.emplace_back(0);
+    mesh.lightmap_uvs.emplace_back(0);
+  }
+  mesh.parts.push_back(part);
+}
+
+inline void add_flat(Pack& pack, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
+  add_triangle(pack, {a, b, c}, {n, n, n});
+}
+
+// A cup with walls of a tenth of its size, round about the y axis.
+inline void add_cup(Pack& pack) {
+  constexpr int kSides = 40;
+  const Vec2 outline[] = {{0, -0.6f},   {0.5f, -0.6f},  {0.5f, 0.6f}, {0.45f, 0.65f},
+                          {0.4f, 0.6f}, {0.4f, -0.45f}, {0, -0.45f}};
+  const auto at = [&](std::size_t i, int side) {
+    const float phi = 2 * kPi * static_cast<float>(side % kSides) / kSides;
+    return Vec3(outline[i].x * std::cos(phi), outline[i].y, -outline[i].x * std::sin(phi));
+  };
+  for (std::size_t i = 0; i + 1 < std::size(outline); ++i)
+    for (int side = 0; side < kSides; ++side) {
+      const Vec3 a = at(i, side), b = at(i, side + 1), c = at(i + 1, side + 1), d = at(i + 1, side);
+      if (outline[i].x > 0) add_flat(pack, a, b, c);
+      if (outline[i + 1].x > 0) add_flat(pack, a, c, d);
+    }
+}
+
 // Pixels that an edge takes from a quarter to three quarters. Neighbours of 4 x 4 look at parts of the lobe: their
 // mean.
 inline float edge_width(const Picture& picture, int size) {

@@ -83,13 +83,14 @@ TEST_F(GlassMirrorTest, SlabShiftsWhatLiesBehind) {
 struct Kind {
   const char* name;
   float roughness;
-  bool ball, pane;
+  bool ball, pane, cup = false;
 };
 constexpr Kind kKinds[] = {{"block", 0, false, false},
                            {"ball", 0, true, false},
                            {"frosted block", 0.3f, false, false},
                            {"frosted ball", 0.3f, true, false},
-                           {"frosted pane", 0.3f, false, true}};
+                           {"frosted pane", 0.3f, false, true},
+                           {"cup", 0, false, false, true}};
 
 // Of green glass in a room of six colours; the frosted pane is clear of colour.
 Pack room_with(const Kind& kind) {
@@ -98,6 +99,8 @@ Pack room_with(const Kind& kind) {
     pack.solids.clear();
     pack.materials[0].double_sided = true;
     testing::add_quad(pack, {-0.5f, -0.6f, 0}, {1, 0, 0}, {0, 1.2f, 0}, 0, -1);
+  } else if (kind.cup) {
+    add_cup(pack);
   } else if (kind.ball) {
     add_ball(pack, Vec3(0), 0.6f);
   } else {
@@ -116,6 +119,33 @@ TEST_F(GlassMirrorTest, IsAsSeenFromBehindTheMirror) {
     const Picture direct = draw(pack, camera, 160, 120);
     const Picture seen = flipped(draw(pack, plate.mirror(camera), 160, 120));
     EXPECT_LT(share_off(direct, seen, 3), 0.003) << kind.name;
+    EXPECT_EQ(seen.stats.mirrored_glass, 1u) << kind.name;
+  }
+}
+
+// One that shows a part of what the eye before sees: the reflector's image is smaller than the frame, and lies aside.
+TEST_F(GlassMirrorTest, IsTheSameInASmallMirror) {
+  const Camera camera = camera_at({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f);
+  const Plate plate{{0.93f, 0.57f, 1.2f}, {0, 0, -1}, 0.07f};
+  const auto within = [&](int column, int row) {
+    const Vec3 d = pixel_ray(camera, 4 * column + 2, 4 * row + 2, 160, 120);
+    const Vec3 at = camera.eye + d * ((plate.middle.z - camera.eye.z) / d.z) - plate.middle;
+    return std::max(std::fabs(at.x), std::fabs(at.y)) < 0.85f * plate.half;
+  };
+  for (const Kind& kind : kKinds) {
+    Pack pack = room_with(kind);
+    plate.add(pack, add_silver(pack));
+    const Picture direct = draw(pack, camera, 160, 120);
+    const Picture seen = flipped(draw(pack, plate.mirror(camera), 160, 120));
+    int off = 0, all = 0;
+    for (int row = 0; row < 30; ++row)
+      for (int column = 0; column < 40; ++column) {
+        if (!within(column, row)) continue;
+        off += max_component(glm::abs(mean_at(direct, column, row) - mean_at(seen, column, row))) > 3;
+        ++all;
+      }
+    EXPECT_GT(all, 60);
+    EXPECT_LT(off, all / 20) << kind.name << " of " << all;
     EXPECT_EQ(seen.stats.mirrored_glass, 1u) << kind.name;
   }
 }
@@ -158,28 +188,30 @@ TEST_F(GlassMirrorTest, FrostedPanesBlurByTheDistanceBehind) {
   }
 }
 
+// All that shines is as bright, and what glass shows of the mirror, which is the last part, too. It has a lobe of 0.1.
+void make_even(Pack& pack, float cd_m2, bool glossy) {
+  for (Material& m : pack.materials)
+    if (m.emission != Vec3(0)) m.emission = Vec3(cd_m2);
+  pack.lightmaps.push_back(flat_page(Vec3(cd_m2 * kPi)));
+  pack.mesh.parts.back().lightmap_page = 0;
+  if (!glossy) return;
+  BrdfKernel kernel;
+  kernel.alpha = 0.1f;
+  kernel.size = 9, kernel.half_extent = 0.3f;
+  kernel.weights.assign(81, 1.0f / 81);
+  pack.kernels.push_back(kernel);
+  pack.materials[pack.mesh.parts.back().material].kernel = 0;
+}
+
 // What mirrors and glossy reflectors show of glass that neither reflects nor absorbs, in an even light, is that light.
 TEST_F(GlassMirrorTest, IsNotSeenInAnEvenLight) {
   for (const bool glossy : {false, true})
     for (const Kind& kind : kKinds) {
       Pack pack = room_with(kind);
-      for (Material& m : pack.materials)
-        if (m.emission != Vec3(0)) m.emission = Vec3(80);
       if (!pack.solids.empty()) pack.solids[0].absorption = Vec3(0);
-      const std::uint32_t silver = add_silver(pack);
-      if (glossy) {
-        BrdfKernel kernel;
-        kernel.alpha = 0.1f;
-        kernel.size = 9, kernel.half_extent = 0.3f;
-        kernel.weights.assign(81, 1.0f / 81);
-        pack.kernels.push_back(kernel);
-        pack.materials[silver].kernel = 0;
-      }
       const Plate plate{{0.8f, 0.4f, 1.2f}, {0, 0, -1}, 1.15f};
-      plate.add(pack, silver);
-      // What glass shows of the mirror is as bright.
-      pack.lightmaps.push_back(flat_page(Vec3(80 * kPi)));
-      pack.mesh.parts.back().lightmap_page = 0;
+      plate.add(pack, add_silver(pack));
+      make_even(pack, 80, glossy);
       const Camera camera = plate.mirror(camera_at({1.2f, 0.7f, 1.5f}, Vec3(0), 0.5f));
       const Picture picture = draw(pack, camera, 64, 48);
       EXPECT_EQ(picture.stats.mirrored_glass, 1u);
@@ -188,6 +220,24 @@ TEST_F(GlassMirrorTest, IsNotSeenInAnEvenLight) {
         for (int x = 0; x < 64; ++x) off += max_component(glm::abs(picture.at(x, y) - 80.0f)) > 2;
       EXPECT_EQ(off, 0) << kind.name << (glossy ? " in a glossy reflector" : "");
     }
+}
+
+// A lobe blurs a frosted pane by how far away that is, as a board that shines like it.
+TEST_F(GlassMirrorTest, GlossyReflectorsShowFrostedPanesWhereTheyAre) {
+  Picture pictures[2];
+  for (const bool board : {false, true}) {
+    Pack pack = room_with(kKinds[4]);
+    pack.materials[0].base_color = Vec3(0.2f);
+    if (board) pack.materials[0].transmission = 0, pack.materials[0].emission = Vec3(1);
+    const Plate plate{{0, 0, 0.3f}, {0, 0, -1}, 1.15f};
+    plate.add(pack, add_silver(pack));
+    make_even(pack, 80, true);
+    if (board) pack.materials[0].base_color = Vec3(0), pack.materials[0].emission = Vec3(16);
+    pictures[board] = draw(pack, plate.mirror(camera_at({0, 0, 0.55f}, Vec3(0), 1.6f)), 160, 120);
+  }
+  EXPECT_EQ(pictures[0].stats.mirrored_glass, 1u);
+  EXPECT_LT(share_off(pictures[0], pictures[1], 2), 0.01);
+  EXPECT_NEAR(pictures[1].at(80, 60).x, 16, 1);
 }
 
 // Light of pixels, and draws, are the same to the last bit with glass that no mirror shows, and without.

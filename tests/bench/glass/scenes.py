@@ -85,6 +85,34 @@ class Scene:
         if glass:
             self.glass.append([at(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 
+    def turned(self, name, middle, outline, material, sides=64):
+        """A surface round about up through `middle`; outline: its (radius, height) from the axis below, fronts to the right of it."""
+        points, normals, indices = [], [], []
+        steps = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(outline, outline[1:])]
+        for i, (radius, height) in enumerate(outline):
+            beside = [steps[k] for k in (i - 1, i) if 0 <= k < len(steps)]
+            lengths = [math.hypot(*step) for step in beside]
+            n = [sum(step[1] / l for step, l in zip(beside, lengths)), -sum(step[0] / l for step, l in zip(beside, lengths))]
+            if radius == 0:
+                n[0] = 0
+            length = math.hypot(*n)
+            for side in range(sides):
+                phi = 2 * math.pi * side / sides
+                c, d = math.cos(phi), -math.sin(phi)
+                points.append((middle[0] + radius * c, middle[1] + height, middle[2] + radius * d))
+                normals.append((n[0] / length * c, n[1] / length, n[0] / length * d))
+        for i, (low, high) in enumerate(zip(outline, outline[1:])):
+            for side in range(sides):
+                a, b = i * sides + side, i * sides + (side + 1) % sides
+                if low[0] > 0:
+                    indices += [a, b, b + sides]
+                if high[0] > 0:
+                    indices += [a, b + sides, a + sides]
+        self._mesh(name, points, normals, indices, material)
+        radius, top = max(r for r, _ in outline), max(h for _, h in outline)
+        self.glass.append([(middle[0] + x, middle[1] + y, middle[2] + z)
+                           for x in (-radius, radius) for y in (0, top) for z in (-radius, radius)])
+
     def pane(self, name, corner, right, up, material):
         """A thin one."""
         def add(*vectors):
@@ -119,6 +147,18 @@ def block(cornell):
     """The Cornell box with a block of glass before its blocks."""
     scene = Scene(cornell)
     scene.box("glass block", (0.39, 0.101, 0.11), (0.13, 0.2, 0.1), scene.glass_of(0.1, left_after_1m=(0.02, 0.4, 0.1)), 0.4, True)
+    return scene
+
+
+def vase(cornell):
+    """The Cornell box with a vase before its blocks, whose walls are 8 mm thick."""
+    scene = Scene(cornell)
+    outer = [(0.035 + 0.03 * math.sin(math.pi * t / 16) ** 2 * (1 - t / 32) + 0.01 * (t / 16) ** 3, 0.24 * t / 16) for t in range(17)]
+    inner = [(radius - 0.008, height) for radius, height in outer if height > 0.012]
+    rim = [(outer[-1][0] - 0.004, outer[-1][1] + 0.003)]
+    outline = [(0, 0), *outer, *rim, *inner[::-1], (0, inner[0][1])]
+    scene.turned("vase", (0.36, 0.001, 0.12), outline, scene.glass_of(0.008, left_after_1m=(0.001, 0.1, 0.01)))
+    scene.camera("near", (0.3, 0.2, -0.25), (0.34, 0.13, 0.12), 0.75)
     return scene
 
 

@@ -89,6 +89,8 @@ TEST(Programs, CompileInBothDialects) {
       const auto program = gpu::Program::create(name, dialect, "PLAIN");
       EXPECT_TRUE(program) << program.error().text();
     }
+    const auto tree = gpu::Program::create("screen_glass", dialect, "TREE");
+    EXPECT_TRUE(tree) << tree.error().text();
     if (dialect == Dialect::kEs300) continue;  // has no multisample textures
     const auto sampled = gpu::Program::create("screen_tonemap", dialect, "MULTISAMPLED");
     EXPECT_TRUE(sampled) << sampled.error().text();
