@@ -85,7 +85,10 @@ Result<std::vector<FoundReflector>> find_lit_panes(const Accel& accel, Context& 
   const auto add = [&](const PlanarPatch& side, bool front) {
     const double sign = front ? 1 : -1;
     if (!any_light_before(scene, sign * side.normal, sign * side.offset)) return;
-    for (const auto& [material, patch] : by_material(scene, side)) panes.push_back(make_reflector(scene, patch, front));
+    for (const auto& [material, patch] : by_material(scene, side)) {
+      FoundReflector pane = make_reflector(scene, patch, front);
+      if (!is_covered(accel, pane)) panes.push_back(std::move(pane));
+    }
   };
   const PlanarMirrors flat = PlanarMirrors::frosted_panes(scene);
   for (std::size_t m = 0; m < flat.size(); ++m)

@@ -79,7 +79,9 @@ class FrostedLights {
   std::vector<Way> ways_;
   std::vector<char> triangles_;
   std::vector<std::vector<double>> areas_;  // by pane: cumulative, of its triangles, m²
-  std::vector<double> cumulative_;          // luminance that panes get, lm
+  std::vector<DVec3> middle_;               // by pane, of its hull
+  std::vector<double> extent_;              // likewise: of its corners, m
+  std::vector<double> power_;               // by way: luminance that the pane gets, lm
 };
 
 }  // namespace oriel

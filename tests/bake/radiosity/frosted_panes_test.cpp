@@ -12,13 +12,15 @@ using test::Baked;
 using test::SceneParts;
 
 // A room of 4 x 3 x 4 m whose wall at x = 0 has a window of 1.6 x 1.2 m; the sun shines in.
-Scene frosted_room(float roughness, bool lamp) {
+Scene frosted_room(float roughness, bool lamp, bool polished = false) {
   SceneParts parts;
   const std::uint32_t white = parts.diffuse(Vec3(0.6f));
   SceneMaterial glass;
   glass.base_color = {0.9f, 0.8f, 0.7f};
   glass.metallic = 0, glass.roughness = roughness, glass.transmission = 1, glass.double_sided = true;
-  parts.quad("floor", white, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
+  SceneMaterial metal;
+  metal.base_color = Vec3(0.9f), metal.metallic = 1, metal.roughness = 0.3f;
+  parts.quad("floor", polished ? parts.add(metal) : white, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
   parts.quad("ceiling", white, {0, 3, 0}, {4, 0, 0}, {0, 0, 4});
   parts.quad("right", white, {4, 0, 0}, {0, 0, 4}, {0, 3, 0});
   parts.quad("back", white, {0, 0, 0}, {4, 0, 0}, {0, 3, 0});
@@ -67,6 +69,20 @@ TEST_P(FrostedRooms, BothEstimatorsAndTheLedgerAgree) {
   EXPECT_LE(ledger.disagreement_error(), 0.01);
 }
 INSTANTIATE_TEST_SUITE_P(Panes, FrostedRooms, testing::Combine(testing::Values(0.2f, 0.5f, 1.0f), testing::Bool()));
+
+// What a glossy floor throws on, cast by particles and found by paths.
+TEST(FrostedPanes, GlossyFloorsThrowTheirLightOnOnce) {
+  for (const bool lamp : {false, true}) {
+    double found[2];
+    for (int k = 0; k < 2; ++k) {
+      RadiosityOptions options;
+      options.samples = k == 0 ? 128 : 512;
+      options.estimator = k == 0 ? Estimator::kCached : Estimator::kReference;
+      found[k] = flux(test::bake(frosted_room(0.4f, lamp, true), 0.25f, options));
+    }
+    EXPECT_NEAR(found[0] / found[1], 1, 0.03) << (lamp ? "lamp" : "sun");
+  }
+}
 
 // A sharp patch has its brightest texels beside dark ones; a frosted window's light has no such step.
 TEST(FrostedPanes, BlurThePatchOfTheSun) {

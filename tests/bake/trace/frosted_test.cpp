@@ -211,6 +211,31 @@ TEST(Frosted, APanesOwnSurfaceGetsNoneOfIt) {
   EXPECT_GT(meter.at({0, 0, 0}, {0, 0, -1}, 256).g, 999);
 }
 
+// Two surfaces in one place are one pane, and let through what two do.
+TEST(Frosted, SurfacesInOnePlaceSpreadOnce) {
+  double found[2];
+  for (const bool twice : {false, true}) {
+    SceneParts parts = small_pane(1.0f);
+    if (twice) parts.quad("again", 0, {-0.1f, -0.1f, 0}, {0.2f, 0, 0}, {0, 0.2f, 0});
+    parts.scene().lights = {frosted_sun({0, 0, -1})};
+    found[twice] = PaneMeter(parts.finish()).at({0.5f, 0, 2}, {0, 0, -1}, 20000).g;
+  }
+  EXPECT_GT(found[0], 0.1);
+  EXPECT_LT(found[1], 1.05 * found[0]);
+}
+
+// The sheets of a pane of 6 mm in a scene of a kilometre.
+TEST(Frosted, SheetsStayApartInLargeScenes) {
+  SceneParts parts;
+  const std::uint32_t glass = parts.add(frosted(0.4f));
+  for (const float z : {0.0f, -0.006f}) parts.quad("pane", glass, {-50, -50, z}, {100, 0, 0}, {0, 100, 0});
+  parts.quad("ground", parts.diffuse(Vec3(0)), {-1000, -60, -1000}, {0, 0, 2000}, {2000, 0, 0});
+  parts.scene().lights = {frosted_sun({0, 0, -1}, 100)};
+  const PaneMeter meter(parts.finish());
+  EXPECT_EQ(meter.lights().frosted().panes().size(), 4u);
+  EXPECT_NEAR(meter.at({0, 0, 1}, {0, 0, -1}, 20000).g / (36 * lux_behind(0.16)), 1, 0.02);
+}
+
 TEST(Frosted, ExtremesStayFinite) {
   for (const float roughness : {0.0101f, 0.3f, 1.0f})
     for (const Vec3& light : {Vec3(0, 0, -1e-7f), Vec3(0, 0, -1e-3f), Vec3(1e4f, 0, -1e-2f), Vec3(0, 0, -1e6f)})
