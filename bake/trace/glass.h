@@ -31,8 +31,9 @@ inline bool is_frosted_pane(const ShadePoint& point) {
 // Whether a material is thin glass whose facets spread what is seen through it, whole everywhere: by its factors.
 inline bool may_be_frosted(const SceneMaterial& m) {
   constexpr float kLeastRoughness = 0.01f;
-  return m.transmission > 0 && m.metallic < 1 && !m.solid && m.metal == Metal::kNone && !m.unlit &&
-         m.alpha_mode == AlphaMode::kOpaque && m.roughness >= kLeastRoughness;
+  const bool transmits = m.transmission > 0 && (m.metallic < 1 || m.metallic_roughness_texture.image >= 0);
+  return transmits && !m.solid && m.metal == Metal::kNone && !m.unlit && m.alpha_mode == AlphaMode::kOpaque &&
+         m.roughness >= kLeastRoughness;
 }
 
 // The glass that a path is in. Solids are taken to lie in air: of those that overlap the last one entered counts.
