@@ -114,7 +114,10 @@ TEST(Report, EverySectionMayBeAbsent) {
       [](Pack& p) { p.provenance.clear(); },
       [](Pack& p) { p.plan.clear(); },
       [](Pack& p) { p.light_groups.clear(), p.page_groups.clear(), p.day = {}; },
-      [](Pack& p) { p.radiance_maps.clear(), p.map_meshes.clear(), p.reflectors.clear(), p.emitters.clear(); },
+      [](Pack& p) {
+        p.radiance_maps.clear(), p.map_meshes.clear(), p.reflectors.clear(), p.emitters.clear(),
+            p.frosted_panes.clear();
+      },
       [](Pack& p) { p.curved_reflectors.clear(), p.surround_maps.clear(); },
       [](Pack& p) {
         p.kernels.clear(), p.fresnel_maps.clear();
