@@ -54,11 +54,17 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
   if (wanted == lights_ && !other_light && places == lamps_) return {};
   lights_ = std::move(wanted);
   serial_ = next_scene_serial();
+  std::vector<Vec3> before;  // by emitter
+  for (const Emitter& e : pack_.emitters) before.push_back(e.radiance);
+  const bool moves = places != lamps_;
   baked_.shine(lights_, pack_);
-  if (places != lamps_) move_lamps(places);
+  if (moves) move_lamps(places);
   bright_lights_ = placed_lights(pack_, lamps_);
   for (GpuReflector& r : reflectors_) list_emitters(r, pack_.reflectors[r.index], true);
-  for (GpuReflector& pane : frosted_panes_) list_emitters(pane, pack_.frosted_panes[pane.index], false);
+  const auto changes = [&](std::uint32_t e) { return pack_.emitters[e].radiance != before[e]; };
+  for (GpuReflector& pane : frosted_panes_)  // there may be hundreds
+    if (const Reflector& side = pack_.frosted_panes[pane.index]; moves || std::ranges::any_of(side.emitters, changes))
+      list_emitters(pane, side, false);
   return images_->set_lights(lights_, factors_of_maps(), live_->changes(lights_));
 }
 

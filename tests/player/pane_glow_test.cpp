@@ -93,6 +93,21 @@ TEST_F(PaneGlowTest, GoesByWhatNodesSee) {
   EXPECT_EQ(glow(lit_pane(0.5f, light, 0, 0), eye, Vec3(0)).g, 0);
 }
 
+// The lamp behind it is switched, dimmed and coloured; another one is not the pane's.
+TEST_F(PaneGlowTest, FollowsTheLampsThatAreSwitched) {
+  Pack pack = lit_pane(0.5f, {0, 0, -2});
+  pack.light_groups.resize(2);
+  pack.light_groups[0].name = "behind", pack.light_groups[0].emitters = {0};
+  pack.light_groups[1].name = "other";
+  const Vec3 eye(0, 0, 1.5f), all = glow(pack, eye, Vec3(0));
+  ASSERT_GT(all.g, 1);
+  for (const Vec3& factor : {Vec3(0), Vec3(0.5f, 1, 2), Vec3(1)})
+    for (const float other : {0.0f, 1.0f}) {
+      const Vec3 found = glow(pack, eye, Vec3(0), {.lights = {factor, Vec3(other)}});
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], factor[c] * all[c], 1e-3f * all[c]) << factor.x << " " << c;
+    }
+}
+
 TEST_F(PaneGlowTest, IsNotSeenFromTheLitSideNorInClearGlass) {
   const Vec3 light(0.3f, 0, -2);
   EXPECT_EQ(glow(lit_pane(0.5f, light), {0, 0, -1.5f}, Vec3(0)).g, 0);
