@@ -107,6 +107,26 @@ struct ShiftedEdge {
   }
 };
 
+// An even light seen through slabs that are so thick together, by Beer and Lambert along the bent rays.
+struct AbsorbedLight {
+  static constexpr Vec3 kAbsorption{0.5f, 2, 10};  // 1/m
+  static constexpr float kThick = 0.2f, kLight = 100;
+
+  static void add(Pack& pack) {
+    add_quad(pack, {-9, -9, -2}, {18, 0, 0}, {0, 18, 0}, add_lamp(pack, Vec3(kLight)), -1);
+  }
+  static Camera camera() { return camera_at({0.8f, 0.3f, 1.5f}, Vec3(0)); }
+  static void expect_in(const Picture& picture) {
+    for (int y = 0; y < picture.height; y += 5)
+      for (int x = 0; x < picture.width; x += 5) {
+        const float cosine = -pixel_ray(camera(), x, y, picture.width, picture.height).z;
+        const float within = std::sqrt(1 - (1 - cosine * cosine) / 2.25f);
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(picture.at(x, y)[c], kLight * std::exp(-kAbsorption[c] * kThick / within), 0.3) << x << ", " << y;
+      }
+  }
+};
+
 inline void add_ball(Pack& pack, const Vec3& centre, float radius, bool inwards = false) {
   constexpr int kRings = 24, kSides = 48;
   Mesh& mesh = pack.mesh;

@@ -46,18 +46,8 @@ void add_sheet(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up
 }
 
 void add_plane_mirror(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up) {
-  const auto first = static_cast<std::uint32_t>(pack.mesh.positions.size());
-  add_quad(pack, corner, right, up, 1, -1);
+  add_bare_mirror(pack, corner, right, up, 1);
   pack.mesh.parts.back().name = "mirror";
-  Reflector reflector;
-  reflector.material = 1;
-  const Vec3 x = glm::normalize(right), y = glm::normalize(up);
-  reflector.pack_from_reflector =
-      Mat4(Vec4(x, 0), Vec4(y, 0), Vec4(glm::cross(x, y), 0), Vec4(corner + 0.5f * (right + up), 1));
-  reflector.upper = 0.5f * Vec2(glm::length(right), glm::length(up));
-  reflector.lower = -reflector.upper;
-  for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) reflector.indices.push_back(first + i);
-  pack.reflectors.push_back(reflector);
 }
 
 FrameOptions in_passes(int mirrors = 0) {

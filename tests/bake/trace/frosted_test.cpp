@@ -3,13 +3,14 @@
 
 #include "bake/brdf/microfacet.h"
 #include "bake/trace/lights.h"
-#include "bake/trace/path.h"
 #include "bake/trace/shading.h"
+#include "tests/bake/support/light_meter.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel {
 namespace {
 
+using test::LightMeter;
 using test::SceneParts;
 
 constexpr Vec3 kTint(0.9f, 0.6f, 0.3f);
@@ -33,30 +34,6 @@ Light lamp_at(const Vec3& position, float cd = 100) {
   light.intensity = Vec3(cd);
   return light;
 }
-
-// Irradiance at p on a plane that faces n, straight and by panes, of lights alone.
-class PaneMeter {
- public:
-  explicit PaneMeter(Scene scene) : scene_(std::move(scene)), accel_(*Accel::build(scene_)), lights_(scene_) {}
-  DVec3 at(const Vec3& p, const Vec3& n, std::uint32_t samples) const {
-    SurfacePoint s;
-    s.position = p, s.normal = s.geometric_normal = n, s.magnitude = 1;
-    DVec3 sum(0);
-    std::uint64_t rays = 0;
-    for (std::uint32_t k = 0; k < samples; ++k) {
-      Sampler sampler(1, 0, k);
-      sum += DVec3(sample_irradiance({accel_, lights_, {}}, s, sampler, rays).direct);
-    }
-    return sum / double(samples);
-  }
-  const LightSet& lights() const { return lights_; }
-  const Accel& accel() const { return accel_; }
-
- private:
-  Scene scene_;
-  Accel accel_;
-  LightSet lights_;
-};
 
 // Of a pane with normal +z: radiance towards wo (z > 0) for each lux from behind, from wi (z < 0). Written down again:
 // D G1 / (4 cosθo) of both facets that turn wo there.
@@ -133,7 +110,7 @@ TEST(Frosted, ASmallPaneFarAwayShinesAsItsFacetsSay) {
         for (const bool sun : {true, false}) {
           SceneParts parts = small_pane(roughness);
           parts.scene().lights = {sun ? frosted_sun(Vec3(to_light)) : lamp_at(Vec3(to_light))};
-          const PaneMeter meter(parts.finish());
+          const LightMeter meter(parts.finish());
           const DVec3 facing = glm::normalize(-receiver);
           double expected = 0;
           constexpr int kCells = 64;
@@ -158,7 +135,7 @@ TEST(Frosted, ASmallPaneFarAwayShinesAsItsFacetsSay) {
 TEST(Frosted, ALargePaneKeepsTheLightAndBlursItsEdge) {
   SceneParts parts = small_pane(0.3f, 1);
   parts.scene().lights = {frosted_sun({0, 0, -1})};
-  const PaneMeter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   const Vec3 n(0, 0, -1);
   const double wide = 600 * lux_behind(0.09);
   EXPECT_NEAR(meter.at({0, 0, 0.1f}, n, 4000).g / wide, 1, 0.01);
@@ -175,7 +152,7 @@ TEST(Frosted, SheetsBehindEachOtherSpreadOnce) {
   for (const float z : {0.0f, -0.01f})
     parts.quad("pane", parts.add(frosted(0.4f)), {-50, -50, z}, {100, 0, 0}, {0, 100, 0});
   parts.scene().lights = {frosted_sun({0, 0, -1}, 100)};
-  EXPECT_NEAR(PaneMeter(parts.finish()).at({0, 0, 1}, {0, 0, -1}, 20000).g / (36 * lux_behind(0.16)), 1, 0.01);
+  EXPECT_NEAR(LightMeter(parts.finish()).at({0, 0, 1}, {0, 0, -1}, 20000).g / (36 * lux_behind(0.16)), 1, 0.01);
 }
 
 TEST(Frosted, CurvedBumpyAndClearPanesAreStraight) {
@@ -186,19 +163,19 @@ TEST(Frosted, CurvedBumpyAndClearPanesAreStraight) {
     SceneParts parts;
     parts.quad("pane", parts.add(m), {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
     parts.scene().lights = {frosted_sun({0, 0, -1})};
-    EXPECT_TRUE(PaneMeter(parts.finish()).lights().frosted().empty());
+    EXPECT_TRUE(LightMeter(parts.finish()).lights().frosted().empty());
   }
   SceneParts ball;
   ball.sphere("globe", ball.add(frosted(0.4f)), Vec3(0), 0.5f, 3);
   ball.scene().lights = {lamp_at(Vec3(0))};
-  const PaneMeter meter(ball.finish());
+  const LightMeter meter(ball.finish());
   EXPECT_TRUE(meter.lights().frosted().empty());
   EXPECT_NEAR(meter.at({0, 0, 2}, {0, 0, -1}, 64).g, 25 * 0.6, 0.3);
 }
 
 TEST(Frosted, WithoutLightsPanesAreAsAnyOther) {
   SceneParts parts = small_pane(0.4f, 1);
-  const PaneMeter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   EXPECT_TRUE(meter.lights().frosted().empty());
   EXPECT_NEAR(meter.accel().transmittance({{0, 0, 1}, {0, 0, -1}, 2, true, false}).g, 0.6f, 1e-3f);
 }
@@ -206,7 +183,7 @@ TEST(Frosted, WithoutLightsPanesAreAsAnyOther) {
 TEST(Frosted, APanesOwnSurfaceGetsNoneOfIt) {
   SceneParts parts = small_pane(0.4f, 1);
   parts.scene().lights = {frosted_sun({0, 0, -1})};
-  const PaneMeter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   EXPECT_EQ(meter.at({0, 0, 0}, {0, 0, 1}, 256), DVec3(0));
   EXPECT_GT(meter.at({0, 0, 0}, {0, 0, -1}, 256).g, 999);
 }
@@ -218,7 +195,7 @@ TEST(Frosted, SurfacesInOnePlaceSpreadOnce) {
     SceneParts parts = small_pane(1.0f);
     if (twice) parts.quad("again", 0, {-0.1f, -0.1f, 0}, {0.2f, 0, 0}, {0, 0.2f, 0});
     parts.scene().lights = {frosted_sun({0, 0, -1})};
-    found[twice] = PaneMeter(parts.finish()).at({0.5f, 0, 2}, {0, 0, -1}, 20000).g;
+    found[twice] = LightMeter(parts.finish()).at({0.5f, 0, 2}, {0, 0, -1}, 20000).g;
   }
   EXPECT_GT(found[0], 0.1);
   EXPECT_LT(found[1], 1.05 * found[0]);
@@ -231,7 +208,7 @@ TEST(Frosted, SheetsStayApartInLargeScenes) {
   for (const float z : {0.0f, -0.006f}) parts.quad("pane", glass, {-50, -50, z}, {100, 0, 0}, {0, 100, 0});
   parts.quad("ground", parts.diffuse(Vec3(0)), {-1000, -60, -1000}, {0, 0, 2000}, {2000, 0, 0});
   parts.scene().lights = {frosted_sun({0, 0, -1}, 100)};
-  const PaneMeter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   EXPECT_EQ(meter.lights().frosted().panes().size(), 4u);
   EXPECT_NEAR(meter.at({0, 0, 1}, {0, 0, -1}, 20000).g / (36 * lux_behind(0.16)), 1, 0.02);
 }
@@ -244,7 +221,7 @@ TEST(Frosted, ExtremesStayFinite) {
           SceneParts parts = small_pane(roughness, 1);
           parts.quad("sliver", parts.add(frosted(roughness)), {-1, -1, 0.5f}, {2, 0, 0}, {0, 0, 0});
           parts.scene().lights = {sun ? frosted_sun(light) : lamp_at(light)};
-          const DVec3 found = PaneMeter(parts.finish()).at(p, {0, 0, -1}, 256);
+          const DVec3 found = LightMeter(parts.finish()).at(p, {0, 0, -1}, 256);
           EXPECT_TRUE(std::isfinite(found.x + found.y + found.z)) << roughness << " " << light.z << " " << p.z;
           EXPECT_GE(std::min({found.x, found.y, found.z}), 0);
           EXPECT_LE(found.x, sun ? 1100 : 1e12) << roughness << " " << light.z << " " << p.z;
@@ -258,8 +235,8 @@ TEST(Frosted, ManyLightsAreChosenWithoutBias) {
   few.scene().lights = {lamp_at({0, 0, -1}, 40)};
   many.scene().lights.assign(40, lamp_at({0, 0, -1}, 1));
   for (int i = 0; i < 60; ++i) many.scene().lights.push_back(lamp_at({0, 0, 1}, 0));
-  const double one = PaneMeter(few.finish()).at({0.3f, 0, 1}, {0, 0, -1}, 20000).g;
-  EXPECT_NEAR(PaneMeter(many.finish()).at({0.3f, 0, 1}, {0, 0, -1}, 4000).g / one, 1, 0.03);
+  const double one = LightMeter(few.finish()).at({0.3f, 0, 1}, {0, 0, -1}, 20000).g;
+  EXPECT_NEAR(LightMeter(many.finish()).at({0.3f, 0, 1}, {0, 0, -1}, 4000).g / one, 1, 0.03);
 }
 
 }  // namespace

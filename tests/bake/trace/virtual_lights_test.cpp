@@ -3,12 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "bake/trace/path.h"
+#include "tests/bake/support/light_meter.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel {
 namespace {
 
+using test::LightMeter;
 using test::SceneParts;
 
 SceneMaterial mirror(const Vec3& color) {
@@ -41,30 +42,6 @@ double schlick(double f0, double cosine) {
   return f0 + (1 - f0) * std::pow(1 - cosine, 5);
 }
 
-// Irradiance at p on a plane with normal n, by paths, of lights and their mirror images alone.
-class Meter {
- public:
-  explicit Meter(Scene scene) : scene_(std::move(scene)), accel_(*Accel::build(scene_)), lights_(scene_) {}
-  Vec3 at(const Vec3& p, const Vec3& n, std::uint32_t samples = 64) const {
-    SurfacePoint s;
-    s.position = p, s.normal = s.geometric_normal = n, s.magnitude = 1;
-    DVec3 sum(0);
-    for (std::uint32_t k = 0; k < samples; ++k) {
-      Sampler sampler(1, 0, k);
-      const IrradianceSample e = sample_irradiance({accel_, lights_, {}}, s, sampler, rays);
-      sum += DVec3(e.direct) + DVec3(e.indirect);
-    }
-    return Vec3(sum / double(samples));
-  }
-  const LightSet& lights() const { return lights_; }
-  mutable std::uint64_t rays = 0;
-
- private:
-  Scene scene_;
-  Accel accel_;
-  LightSet lights_;
-};
-
 // A mirror of 1 m² in the middle of the floor.
 SceneParts floor_mirror(const Vec3& color = Vec3(0.9f)) {
   SceneParts parts;
@@ -75,7 +52,7 @@ SceneParts floor_mirror(const Vec3& color = Vec3(0.9f)) {
 TEST(VirtualLights, ASunOnAFloorMirrorLightsTheCeiling) {
   SceneParts parts = floor_mirror();
   parts.scene().lights = {sun_at(60)};
-  const Meter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   ASSERT_EQ(meter.lights().mirrored().size(), 1u);
   // At 3 m the patch is the mirror moved by 3 cot 60° along the way of the light.
   const float shift = 3 / std::sqrt(3.0f);
@@ -83,15 +60,15 @@ TEST(VirtualLights, ASunOnAFloorMirrorLightsTheCeiling) {
   for (const float x : {-0.499f, -0.3f, 0.0f, 0.499f})
     for (const float z : {-0.499f, 0.1f, 0.499f})
       EXPECT_NEAR(meter.at({shift + x, 3, z}, {0, -1, 0}).g / expected, 1, 1e-3) << x << " " << z;
-  for (const float x : {-0.501f, 0.501f}) EXPECT_EQ(meter.at({shift + x, 3, 0}, {0, -1, 0}), Vec3(0)) << x;
-  EXPECT_EQ(meter.at({shift, 3, 0.501f}, {0, -1, 0}), Vec3(0));
+  for (const float x : {-0.501f, 0.501f}) EXPECT_EQ(meter.at({shift + x, 3, 0}, {0, -1, 0}), DVec3(0)) << x;
+  EXPECT_EQ(meter.at({shift, 3, 0.501f}, {0, -1, 0}), DVec3(0));
 }
 
 TEST(VirtualLights, ASunsDiskBlursThePatchAndKeepsItsLight) {
   SceneParts parts = floor_mirror();
   parts.scene().lights = {sun_at(90)};
   parts.scene().lights[0].angular_radius_rad = 0.05f;
-  const Meter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   double sum = 0;
   constexpr int kSteps = 40;  // 2 × 2 m
   for (int i = 0; i < kSteps; ++i)
@@ -104,7 +81,7 @@ TEST(VirtualLights, ASunsDiskBlursThePatchAndKeepsItsLight) {
 TEST(VirtualLights, APointInAMirrorIsALampBehindIt) {
   SceneParts parts = floor_mirror();
   parts.scene().lights = {point_at({0, 1, 0})};
-  const Meter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   const Vec3 p(0.6f, 2, 0.2f);
   const DVec3 to = DVec3(0, -1, 0) - DVec3(p);
   const double d2 = glm::dot(to, to), cosine = -to.y / std::sqrt(d2);
@@ -120,12 +97,12 @@ TEST(VirtualLights, ASmallLampByPathsIsTheSame) {
   SceneParts parts = floor_mirror();
   parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(1000)), {-0.15f, 1, -0.15f}, {0.3f, 0, 0}, {0, 0, 0.3f});  // down
   const Vec3 p(0.6f, 1.5f, 0.2f);  // it sees the lamp in the mirror alone
-  const double paths = Meter(parts.finish()).at(p, {0, -1, 0}, 1 << 20).g;
+  const double paths = LightMeter(parts.finish()).at(p, {0, -1, 0}, 1 << 20).g;
   SceneParts point = floor_mirror();
   point.quad("shade", point.diffuse(Vec3(0)), {-0.15f, 1.001f, -0.15f}, {0.3f, 0, 0}, {0, 0, 0.3f});
   point.scene().lights = {point_at({0, 1, 0}, 90)};
   const double cosine = 2.5 / std::sqrt(2.5 * 2.5 + 0.4);
-  const double image = Meter(point.finish()).at(p, {0, -1, 0}).g * cosine;  // as a flat lamp shines
+  const double image = LightMeter(point.finish()).at(p, {0, -1, 0}).g * cosine;  // as a flat lamp shines
   EXPECT_NEAR(paths / image, 1, 0.05) << "800 paths of a million, 3.5 %";
   EXPECT_GT(image, 5);
 }
@@ -135,16 +112,16 @@ TEST(VirtualLights, ASpotsConeIsMirrored) {
   Light spot = point_at({0, 1, 0});
   spot.type = LightType::kSpot, spot.direction = {0, -1, 0}, spot.inner_cone_rad = 0.1f, spot.outer_cone_rad = 0.2f;
   parts.scene().lights = {spot};
-  const Meter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   EXPECT_NEAR(meter.at({0, 2, 0}, {0, -1, 0}).g, 100.0 / 9 * 0.9, 0.01);
-  EXPECT_EQ(meter.at({3 * std::tan(0.21f), 2, 0}, {0, -1, 0}), Vec3(0));
+  EXPECT_EQ(meter.at({3 * std::tan(0.21f), 2, 0}, {0, -1, 0}), DVec3(0));
 }
 
 TEST(VirtualLights, TwoMirrorsOneAfterTheOther) {
   SceneParts parts = floor_mirror(Vec3(0.5f));
   parts.quad("upper", parts.add(mirror(Vec3(0.8f))), {-2, 1, -2}, {4, 0, 0}, {0, 0, 4});  // it looks down
   parts.scene().lights = {point_at({-0.3f, 0.5f, 0})};
-  const Meter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   // Beside the lower mirror, of the lamp and of its images by one, two and three mirrors; those by more miss it.
   const auto from = [&](double height) {
     const double d2 = 1.8 * 1.8 + height * height, cosine = height / std::sqrt(d2);
@@ -204,7 +181,7 @@ TEST(VirtualLights, APaneReflectsAndPassesNoMoreThanCame) {
     SceneParts parts;
     parts.quad("pane", parts.add(pane({0.9f, 0.5f, 0.1f})), {-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
     parts.scene().lights = {sun_at(height)};
-    const Meter meter(parts.finish());
+    const LightMeter meter(parts.finish());
     const double came = 1000 * std::sin(height * kPiD / 180);
     const Vec3 above = meter.at({0, 0.5f, 0}, {0, -1, 0}), below = meter.at({0, -0.5f, 0}, {0, 1, 0});
     EXPECT_GT(above.g, 0.03 * came);
@@ -222,9 +199,9 @@ TEST(VirtualLights, ShadowsFallOnBothLegs) {
   SceneParts before = parts, after = parts;
   before.quad("before", black, {-1, 1, -0.2f}, {0.8f, 0, 0}, {0, 0, 0.4f});  // over (-0.58, 1)
   after.quad("after", black, {0.4f, 1, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f});
-  EXPECT_GT(Meter(parts.finish()).at(p, {0, -1, 0}).g, 700);
-  EXPECT_EQ(Meter(before.finish()).at(p, {0, -1, 0}), Vec3(0));
-  EXPECT_EQ(Meter(after.finish()).at(p, {0, -1, 0}), Vec3(0));
+  EXPECT_GT(LightMeter(parts.finish()).at(p, {0, -1, 0}).g, 700);
+  EXPECT_EQ(LightMeter(before.finish()).at(p, {0, -1, 0}), DVec3(0));
+  EXPECT_EQ(LightMeter(after.finish()).at(p, {0, -1, 0}), DVec3(0));
 }
 
 TEST(VirtualLights, MirrorsThatFaceEachOtherEnd) {
@@ -233,7 +210,7 @@ TEST(VirtualLights, MirrorsThatFaceEachOtherEnd) {
   parts.quad("left", m, {-1, -1, -1}, {0, 2, 0}, {0, 0, 2});
   parts.quad("right", m, {1, -1, -1}, {0, 0, 2}, {0, 2, 0});
   parts.scene().lights = {point_at({0.2f, 0, 0})};
-  const Meter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   EXPECT_EQ(meter.lights().mirrored().size(), 16u) << "eight images each way";
   EXPECT_EQ(meter.lights().mirrored().left_out(), 0);
   const Vec3 e = meter.at({0, 0, 0.5f}, {0, 0, -1});
@@ -269,7 +246,7 @@ TEST(VirtualLights, AnIndexOfOneReflectsNothingAndZeroIsAMirror) {
     m.ior = ior;
     parts.quad("pane", parts.add(m), {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
     parts.scene().lights = {sun_at(60)};
-    const Meter meter(parts.finish());
+    const LightMeter meter(parts.finish());
     const double came = 1000 * std::sin(kPiD / 3);
     const float up = meter.at({0, 0.5f, 0}, {0, -1, 0}).g, down = meter.at({0, -0.5f, 0}, {0, 1, 0}).g;
     EXPECT_LE(up + down, came * 1.001) << ior;
@@ -284,12 +261,12 @@ TEST(VirtualLights, PanesInOnePlaneAreOneMirror) {
   const auto glass = parts.add(pane(Vec3(1)));
   for (int i = 0; i < 6; ++i) parts.quad("pane", glass, {i * 1.1f, 0, 0}, {1, 0, 0}, {0, 2, 0});
   parts.scene().lights = {point_at({2, 1, 3})};
-  const Meter meter(parts.finish());
+  const LightMeter meter(parts.finish());
   EXPECT_EQ(meter.lights().mirrored().size(), 1u);
   EXPECT_EQ(meter.lights().mirrored().mirrors().size(), 2u) << "a front and a back";
   const Vec3 through(1.05f, 1, 0);  // between two panes
   const auto at = [&](const Vec3& on) { return on + (on - Vec3(2, 1, -3)) * 0.5f; };
-  EXPECT_EQ(meter.at(at(through), {0, 0, -1}), Vec3(0));
+  EXPECT_EQ(meter.at(at(through), {0, 0, -1}), DVec3(0));
   EXPECT_GT(meter.at(at({1.2f, 1, 0}), {0, 0, -1}).g, 0.1);
 }
 
