@@ -119,7 +119,8 @@ class VisibilityBaker {
     std::uint64_t stream = (on.light * kMaxReflectorEmitters + polygon) * nodes.grid.points.size();
     for (const Vec3& node : nodes.grid.points) {
       shares.push_back(share(on.polygons[polygon], few, node, normal, stream++));
-      if (on.punctual) shares.back() *= fade_of_square(accel_.scene(), *on.punctual, on.lamp, node);
+      if (on.punctual)
+        shares.back() *= fade_of_square(accel_.scene(), *on.punctual, on.lamp, node, options_.squares_turn);
     }
     return shares;
   }
@@ -188,7 +189,8 @@ class EmitterChooser {
                                                   LeftIn& left_in) const {
     const Nodes nodes = lay_out(accel_, found, options_.choice_node_m, options_.max_choice_nodes);
     const Vec3 normal(found.reflector.pack_from_reflector[2]);
-    std::vector<LightOnReflector> out = lamps_before({normal, nodes.grid.points}, lobe_width > 0, left_in);
+    std::vector<LightOnReflector> out =
+        lamps_before({normal, nodes.grid.points, options_.squares_turn}, lobe_width > 0, left_in);
     std::ranges::stable_sort(out, std::greater(), &LightOnReflector::worth);
     left_in.too_faint = out.size() - std::min<std::size_t>(out.size(), options_.max_lights);
     out.resize(out.size() - left_in.too_faint);

@@ -17,6 +17,7 @@ struct EmitterOptions {
   float choice_node_m = 0.5f, node_m = kNodeDistance_m;
   std::uint32_t max_choice_nodes = 17, max_nodes = kMostNodesAlong;
   std::uint32_t samples = 32;     // rays from a node to an emitter, at most
+  bool squares_turn = false;      // as LitPlane's
   std::uint32_t max_lights = 64;  // of a reflector whose visibility is computed: those that would light it most
 };
 

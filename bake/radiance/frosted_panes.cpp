@@ -12,8 +12,8 @@ namespace {
 // Of parts of bent panes: the player bends the light at each pixel's own normal.
 constexpr double kMostBend = 0.35, kMostSag = 0.2;  // radians; of the square root of the area
 
-constexpr float kNodes_m = 0.25f;  // what shines on glass is seldom hidden in part
-constexpr std::uint32_t kMostNodes = 33;
+constexpr float kNodes_m = 0.05f;       // what hides a sun has an edge
+constexpr std::size_t kManyPanes = 64;  // then nodes are as far apart as of reflectors
 
 bool any_light_before(const Scene& scene, const DVec3& normal, double offset) {
   return std::ranges::any_of(scene.lights, [&](const Light& light) {
@@ -56,6 +56,9 @@ std::vector<PlanarPatch> bent_parts(const Scene& scene, const PlanarMirrors& fla
                     "them do not show in them",
                     parts.size() - kMostBentPanes, parts.size()));
   parts.resize(std::min(parts.size(), kMostBentPanes));
+  omitted.emplace_back(
+      "frosted glass that is bent, has a normal map or a texture of roughness: light of points, spots and "
+      "suns passes it straight; the glass itself glows");
   return parts;
 }
 
@@ -97,7 +100,8 @@ Result<std::vector<FoundReflector>> find_lit_panes(const Accel& accel, Context& 
     for (const bool front : {true, false}) add(part, front);
   // As mirrors they list what has no surface.
   const std::vector<float> lobe_widths(scene.materials.size(), 0.0f);
-  const EmitterOptions options{.lobe_widths = lobe_widths, .node_m = kNodes_m, .max_nodes = kMostNodes};
+  EmitterOptions options{.lobe_widths = lobe_widths, .squares_turn = true};
+  if (panes.size() <= kManyPanes) options.node_m = kNodes_m;
   ORIEL_TRY_VOID(leave_out_emitters(accel, options, context, {panes, emitters, omitted}));
   std::erase_if(panes, [](const FoundReflector& pane) { return pane.reflector.emitters.empty(); });
   for (FoundReflector& pane : panes)  // rays meet either twin, but it is drawn once

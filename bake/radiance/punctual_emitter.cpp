@@ -24,8 +24,8 @@ std::optional<PolygonLight> punctual_square(const Scene& scene, const Light& lig
   Vec3 most(0);
   for (const Vec3& node : plane.nodes) {
     const Vec3 towards = glm::normalize(node - light.position);
-    const Vec3 needed =
-        punctual_intensity(scene, light, towards) / std::max(kGrazing, -glm::dot(plane.normal, towards));
+    const float cosine = plane.turns ? 1 : std::max(kGrazing, -glm::dot(plane.normal, towards));
+    const Vec3 needed = punctual_intensity(scene, light, towards) / cosine;
     if (luminance(needed) > luminance(most)) most = needed;
   }
   if (!(luminance(most) > 0)) return std::nullopt;
@@ -45,12 +45,13 @@ std::optional<PolygonLight> punctual_square(const Scene& scene, const Light& lig
   return square;
 }
 
-float fade_of_square(const Scene& scene, const Light& light, const PolygonLight& square, const Vec3& point) {
+float fade_of_square(const Scene& scene, const Light& light, const PolygonLight& square, const Vec3& point,
+                     bool turns) {
   const Vec3 towards = glm::normalize(point - square.center);
   const float cosine = glm::dot(square.normal, towards);
   if (!(cosine > 0)) return 0;
   const Vec3 has = punctual_intensity(scene, light, towards);
-  const float shown = luminance(square.radiance) * static_cast<float>(square.area_m2()) * cosine;
+  const float shown = luminance(square.radiance) * static_cast<float>(square.area_m2()) * (turns ? 1 : cosine);
   return std::clamp(luminance(has) / shown, 0.0f, 1.0f);
 }
 

@@ -11,6 +11,7 @@ namespace oriel {
 struct LitPlane {
   Vec3 normal{0, 0, 1};
   std::span<const Vec3> nodes;
+  bool turns = false;  // a light's square counts as if it turned to whoever sees it
 };
 
 // A small square in the place of a point or spot light that faces a plane. Towards the node that it sends most to,
@@ -19,8 +20,9 @@ struct LitPlane {
 // other lights, for those at or behind the plane, and for those that do not shine on it.
 std::optional<PolygonLight> punctual_square(const Scene& scene, const Light& light, const LitPlane& plane);
 
-// What the light has towards a point over what the square has, [0,1].
-float fade_of_square(const Scene& scene, const Light& light, const PolygonLight& square, const Vec3& point);
+// What the light has towards a point over what the square has, [0,1]. turns: as LitPlane's.
+float fade_of_square(const Scene& scene, const Light& light, const PolygonLight& square, const Vec3& point,
+                     bool turns = false);
 
 // The point or spot light that a square with these corners stands for; none: ~0u.
 std::uint32_t punctual_of_corners(const Scene& scene, std::span<const Vec3> corners);

@@ -121,6 +121,7 @@ class Studio {
   Result<float> expose(const Shot& shot) {
     if (!arguments_.ev100) {
       ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
+      if (!std::isfinite(shot.since_last_s)) session_.metered = false;  // a picture of its own
       adapt_exposure(metered, shot.since_last_s, session_);
     }
     return session_.shown_ev100;

@@ -312,7 +312,7 @@ Status GlassPass::draw(const FrameContext& context, const ScenePass& scene_pass,
   canvas_->shaded.bind(0);
   scene.bind_geometry();
   for (const DrawRange& range : body.ranges) draw_indices(range.first_index, range.index_count, stats);
-  if (frosted) glow_.draw(context, body);
+  if (frosted && options.show != Show::kD) glow_.draw(context, body);
   return {};
 }
 

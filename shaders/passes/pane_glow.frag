@@ -42,7 +42,7 @@ float share_of_polygon(vec4 lobe, vec3 v[4]) {
   float cos_i = dot(wi, s_normal);
   if (cos_i <= 0.0) return 0.0;
   float density = density_of(s_mirrored + wi) + density_of(s_mirrored + wi - 2.0 * cos_i * s_normal);
-  return clamp(-dot(area / way, wi) / way * density, -1.0, 1.0);  // a lobe that is narrower than the light
+  return min(length(area / way) / way * density, 1.0);  // squares turn to the pane; 1: a lobe narrower than the light
 }
 
 void main() {
