@@ -1,6 +1,5 @@
 #include "bake/run/frosted_panes.h"
 
-#include "bake/jobs/units.h"
 #include "bake/radiance/frosted_panes.h"
 
 namespace oriel {

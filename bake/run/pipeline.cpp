@@ -267,7 +267,7 @@ class Bake {
     const Interruptible until(context_, [&] { return context_.finish || budget_.left() <= writing; });
     auto made = bake_reflections(task(), planned_, materials_, mesh_);
     if (made || made.error().code != ErrorCode::kStopped || context_.stop) return made;
-    pack().emitters.clear(), pack().frosted_panes.clear();
+    pack().emitters.clear();
     const Warning why =
         context_.finish
             ? Warning("left out, the user asked the bake to finish")

@@ -26,10 +26,8 @@ class SpreadLobe {
         crossing_(from + height_ / -glm::dot(pane.normal, towards) * towards),
         left_(left),
         world_from_local_(frame_from_normal(Vec3(-pane.normal))),
-        shade_(pane.shade),
-        lobe_(shade_, glm::transpose(world_from_local_) * Vec3(towards)) {
-    shade_.anisotropy = 0;
-  }
+        shade_(isotropic(pane.shade)),
+        lobe_(shade_, glm::transpose(world_from_local_) * Vec3(towards)) {}
   SpreadLobe(const SpreadLobe&) = delete;
   SpreadLobe& operator=(const SpreadLobe&) = delete;
 
@@ -49,6 +47,11 @@ class SpreadLobe {
   }
 
  private:
+  static ShadePoint isotropic(ShadePoint shade) {
+    shade.anisotropy = 0;
+    return shade;
+  }
+
   const PlanarMirror& pane_;
   DVec3 from_;
   double height_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 
 #include "bake/trace/albedo.h"
 #include "bake/trace/glass.h"
@@ -137,9 +136,10 @@ void PlanarMirrors::collect(const Scene& scene, const std::vector<char>& of_mate
     complete(scene, plane);
     mirrors_.push_back(std::move(plane));
   }
-  // Both sides of a surface stay together, so that no more than one is cut from the other.
-  std::stable_sort(mirrors_.begin(), mirrors_.end(), [](const PlanarMirror& a, const PlanarMirror& b) {
-    return std::tuple(-a.area_m2, a.triangles.front()) < std::tuple(-b.area_m2, b.triangles.front());
+  // Of panes both sides of a surface stay together, so that no cut parts them.
+  std::stable_sort(mirrors_.begin(), mirrors_.end(), [&](const PlanarMirror& a, const PlanarMirror& b) {
+    if (a.area_m2 != b.area_m2) return a.area_m2 > b.area_m2;
+    return both_sides && a.triangles.front() < b.triangles.front();
   });
   mirrors_.resize(std::min(mirrors_.size(), kMost));
   for (const PlanarMirror& mirror : mirrors_) grids_.push_back(grid_of(scene, mirror));

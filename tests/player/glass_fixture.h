@@ -107,6 +107,13 @@ struct ShiftedEdge {
   }
 };
 
+// That nothing of the picture differs from the sky.
+inline void expect_even(const Picture& picture, const Vec3& sky, const std::string& what) {
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      for (int c = 0; c < 3; ++c) ASSERT_NEAR(picture.at(x, y)[c] / sky[c], 1, 0.01) << what << x << ", " << y;
+}
+
 // An even light seen through slabs that are so thick together, by Beer and Lambert along the bent rays.
 struct AbsorbedLight {
   static constexpr Vec3 kAbsorption{0.5f, 2, 10};  // 1/m

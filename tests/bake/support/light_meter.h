@@ -1,9 +1,16 @@
-// Irradiance by paths at points that lie on no surface.
+// Irradiance by paths at points that lie on no surface, and what shines there.
 #pragma once
 
 #include "bake/trace/path.h"
 
 namespace oriel::test {
+
+inline Light point_light(const Vec3& position, float cd = 100) {
+  Light light;
+  light.position = position;
+  light.intensity = Vec3(cd);
+  return light;
+}
 
 class LightMeter {
  public:

@@ -11,6 +11,7 @@ namespace oriel {
 namespace {
 
 using test::LightMeter;
+using test::point_light;
 using test::SceneParts;
 
 constexpr Vec3 kTint(0.9f, 0.6f, 0.3f);
@@ -27,12 +28,6 @@ Light frosted_sun(const Vec3& towards, float lux = 1000) {
   sun.direction = -glm::normalize(towards);
   sun.intensity = Vec3(lux);
   return sun;
-}
-Light lamp_at(const Vec3& position, float cd = 100) {
-  Light light;
-  light.position = position;
-  light.intensity = Vec3(cd);
-  return light;
 }
 
 // Of a pane with normal +z: radiance towards wo (z > 0) for each lux from behind, from wi (z < 0). Written down again:
@@ -103,13 +98,23 @@ TEST(Frosted, WhatPanesSpreadHasItsDensity) {
     }
 }
 
+// By hand at alpha 1: D is even, and what facets hide leaves 1 - ln 2.
+TEST(Frosted, RoughPanesPassLessAlongTheirNormal) {
+  EXPECT_NEAR(lux_behind(1), 1 - std::log(2.0), 1e-4);
+  EXPECT_NEAR(lux_behind(0.16), 0.97, 0.005);
+  SceneParts parts;
+  parts.quad("pane", parts.add(frosted(1)), {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
+  parts.scene().lights = {frosted_sun({0, 0, -1}, 100)};
+  EXPECT_NEAR(LightMeter(parts.finish()).at({0, 0, 0.1f}, {0, 0, -1}, 20000).g / (60 * lux_behind(1)), 1, 0.03);
+}
+
 TEST(Frosted, ASmallPaneFarAwayShinesAsItsFacetsSay) {
   for (const float roughness : {0.2f, 0.5f, 1.0f})
     for (const DVec3& to_light : {DVec3(0, 0, -1), DVec3(0.5, 0.2, -1), DVec3(2, 0, -1)})
       for (const DVec3& receiver : {DVec3(0, 0, 2), DVec3(-1, -0.3, 2), DVec3(1, 1, 1)}) {
         for (const bool sun : {true, false}) {
           SceneParts parts = small_pane(roughness);
-          parts.scene().lights = {sun ? frosted_sun(Vec3(to_light)) : lamp_at(Vec3(to_light))};
+          parts.scene().lights = {sun ? frosted_sun(Vec3(to_light)) : point_light(Vec3(to_light))};
           const LightMeter meter(parts.finish());
           const DVec3 facing = glm::normalize(-receiver);
           double expected = 0;
@@ -167,7 +172,7 @@ TEST(Frosted, CurvedBumpyAndClearPanesAreStraight) {
   }
   SceneParts ball;
   ball.sphere("globe", ball.add(frosted(0.4f)), Vec3(0), 0.5f, 3);
-  ball.scene().lights = {lamp_at(Vec3(0))};
+  ball.scene().lights = {point_light(Vec3(0))};
   const LightMeter meter(ball.finish());
   EXPECT_TRUE(meter.lights().frosted().empty());
   EXPECT_NEAR(meter.at({0, 0, 2}, {0, 0, -1}, 64).g, 25 * 0.6, 0.3);
@@ -220,7 +225,7 @@ TEST(Frosted, ExtremesStayFinite) {
         for (const bool sun : {false, true}) {
           SceneParts parts = small_pane(roughness, 1);
           parts.quad("sliver", parts.add(frosted(roughness)), {-1, -1, 0.5f}, {2, 0, 0}, {0, 0, 0});
-          parts.scene().lights = {sun ? frosted_sun(light) : lamp_at(light)};
+          parts.scene().lights = {sun ? frosted_sun(light) : point_light(light)};
           const DVec3 found = LightMeter(parts.finish()).at(p, {0, 0, -1}, 256);
           EXPECT_TRUE(std::isfinite(found.x + found.y + found.z)) << roughness << " " << light.z << " " << p.z;
           EXPECT_GE(std::min({found.x, found.y, found.z}), 0);
@@ -232,9 +237,9 @@ TEST(Frosted, ManyLightsAreChosenWithoutBias) {
   SceneParts few, many;
   for (SceneParts* parts : {&few, &many})
     parts->quad("pane", parts->add(frosted(0.6f)), {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
-  few.scene().lights = {lamp_at({0, 0, -1}, 40)};
-  many.scene().lights.assign(40, lamp_at({0, 0, -1}, 1));
-  for (int i = 0; i < 60; ++i) many.scene().lights.push_back(lamp_at({0, 0, 1}, 0));
+  few.scene().lights = {point_light({0, 0, -1}, 40)};
+  many.scene().lights.assign(40, point_light({0, 0, -1}, 1));
+  for (int i = 0; i < 60; ++i) many.scene().lights.push_back(point_light({0, 0, 1}, 0));
   const double one = LightMeter(few.finish()).at({0.3f, 0, 1}, {0, 0, -1}, 20000).g;
   EXPECT_NEAR(LightMeter(many.finish()).at({0.3f, 0, 1}, {0, 0, -1}, 4000).g / one, 1, 0.03);
 }

@@ -3,47 +3,30 @@
 
 #include <gtest/gtest.h>
 
-#include "bake/trace/path.h"
 #include "tests/bake/support/glass_slab.h"
+#include "tests/bake/support/light_meter.h"
 
 namespace oriel {
 namespace {
 
 using test::SceneParts, test::solid_glass, test::slab_transmittance;
 
-class World {
+class World : public test::LightMeter {
  public:
-  explicit World(Scene scene) : scene_(std::move(scene)), accel_(*Accel::build(scene_)), lights_(scene_) {}
+  using LightMeter::LightMeter;
 
   // Radiance along a ray.
   Vec3 look(const Vec3& from, const Vec3& direction, std::uint32_t samples) const {
     DVec3 sum(0);
     for (std::uint32_t k = 0; k < samples; ++k) {
       Sampler sampler(3, 1, k);
-      const PathLight light = trace_path({accel_, lights_, {}}, {from, glm::normalize(direction)}, 0, sampler, rays);
+      const PathLight light = trace_path({accel(), lights(), {}}, {from, glm::normalize(direction)}, 0, sampler, rays);
       sum += DVec3(light.emitted + light.sky + light.scattered);
     }
     return Vec3(sum / double(samples));
   }
   // Irradiance at a point in the air.
-  Vec3 lux(const Vec3& p, const Vec3& n, std::uint32_t samples) const {
-    SurfacePoint s;
-    s.position = p, s.normal = s.geometric_normal = n, s.magnitude = 1;
-    DVec3 sum(0);
-    for (std::uint32_t k = 0; k < samples; ++k) {
-      Sampler sampler(1, 0, k);
-      const IrradianceSample e = sample_irradiance({accel_, lights_, {}}, s, sampler, rays);
-      sum += DVec3(e.direct + e.indirect);
-    }
-    return Vec3(sum / double(samples));
-  }
-  const Accel& accel() const { return accel_; }
-  mutable std::uint64_t rays = 0;
-
- private:
-  Scene scene_;
-  Accel accel_;
-  LightSet lights_;
+  Vec3 lux(const Vec3& p, const Vec3& n, std::uint32_t samples) const { return Vec3(at(p, n, samples)); }
 };
 
 // Glass between y = 0 and its thickness, so wide that nobody meets its sides.

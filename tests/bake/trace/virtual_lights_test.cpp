@@ -10,6 +10,7 @@ namespace oriel {
 namespace {
 
 using test::LightMeter;
+using test::point_light;
 using test::SceneParts;
 
 SceneMaterial mirror(const Vec3& color) {
@@ -31,12 +32,6 @@ Light sun_at(float height_deg, float lux = 1000) {
   sun.direction = {std::cos(h), -std::sin(h), 0};
   sun.intensity = Vec3(lux);
   return sun;
-}
-Light point_at(const Vec3& position, float cd = 100) {
-  Light light;
-  light.position = position;
-  light.intensity = Vec3(cd);
-  return light;
 }
 double schlick(double f0, double cosine) {
   return f0 + (1 - f0) * std::pow(1 - cosine, 5);
@@ -80,7 +75,7 @@ TEST(VirtualLights, ASunsDiskBlursThePatchAndKeepsItsLight) {
 
 TEST(VirtualLights, APointInAMirrorIsALampBehindIt) {
   SceneParts parts = floor_mirror();
-  parts.scene().lights = {point_at({0, 1, 0})};
+  parts.scene().lights = {point_light({0, 1, 0})};
   const LightMeter meter(parts.finish());
   const Vec3 p(0.6f, 2, 0.2f);
   const DVec3 to = DVec3(0, -1, 0) - DVec3(p);
@@ -100,7 +95,7 @@ TEST(VirtualLights, ASmallLampByPathsIsTheSame) {
   const double paths = LightMeter(parts.finish()).at(p, {0, -1, 0}, 1 << 20).g;
   SceneParts point = floor_mirror();
   point.quad("shade", point.diffuse(Vec3(0)), {-0.15f, 1.001f, -0.15f}, {0.3f, 0, 0}, {0, 0, 0.3f});
-  point.scene().lights = {point_at({0, 1, 0}, 90)};
+  point.scene().lights = {point_light({0, 1, 0}, 90)};
   const double cosine = 2.5 / std::sqrt(2.5 * 2.5 + 0.4);
   const double image = LightMeter(point.finish()).at(p, {0, -1, 0}).g * cosine;  // as a flat lamp shines
   EXPECT_NEAR(paths / image, 1, 0.05) << "800 paths of a million, 3.5 %";
@@ -109,7 +104,7 @@ TEST(VirtualLights, ASmallLampByPathsIsTheSame) {
 
 TEST(VirtualLights, ASpotsConeIsMirrored) {
   SceneParts parts = floor_mirror();
-  Light spot = point_at({0, 1, 0});
+  Light spot = point_light({0, 1, 0});
   spot.type = LightType::kSpot, spot.direction = {0, -1, 0}, spot.inner_cone_rad = 0.1f, spot.outer_cone_rad = 0.2f;
   parts.scene().lights = {spot};
   const LightMeter meter(parts.finish());
@@ -120,7 +115,7 @@ TEST(VirtualLights, ASpotsConeIsMirrored) {
 TEST(VirtualLights, TwoMirrorsOneAfterTheOther) {
   SceneParts parts = floor_mirror(Vec3(0.5f));
   parts.quad("upper", parts.add(mirror(Vec3(0.8f))), {-2, 1, -2}, {4, 0, 0}, {0, 0, 4});  // it looks down
-  parts.scene().lights = {point_at({-0.3f, 0.5f, 0})};
+  parts.scene().lights = {point_light({-0.3f, 0.5f, 0})};
   const LightMeter meter(parts.finish());
   // Beside the lower mirror, of the lamp and of its images by one, two and three mirrors; those by more miss it.
   const auto from = [&](double height) {
@@ -151,7 +146,7 @@ TEST(VirtualLights, WhatTheyMayNotReachTheyDoNotLight) {
   const auto metal = parts.add(mirror(Vec3(0.8f)));
   parts.quad("upper", metal, {-1, 2, -1}, {2, 0, 0}, {0, 0, 2});
   parts.quad("slanted", metal, {-1.5f, 0, 0.5f}, {0.3f, 0.9f, 0}, {0, 0, -1});
-  parts.scene().lights = {sun_at(70), sun_at(60), point_at({0.2f, 1, 0.1f})};
+  parts.scene().lights = {sun_at(70), sun_at(60), point_light({0.2f, 1, 0.1f})};
   parts.scene().lights[1].angular_radius_rad = 0.05f;
   const Scene scene = parts.finish();
   const LightSet lights(scene);
@@ -209,7 +204,7 @@ TEST(VirtualLights, MirrorsThatFaceEachOtherEnd) {
   const auto m = parts.add(mirror(Vec3(0.95f)));
   parts.quad("left", m, {-1, -1, -1}, {0, 2, 0}, {0, 0, 2});
   parts.quad("right", m, {1, -1, -1}, {0, 0, 2}, {0, 2, 0});
-  parts.scene().lights = {point_at({0.2f, 0, 0})};
+  parts.scene().lights = {point_light({0.2f, 0, 0})};
   const LightMeter meter(parts.finish());
   EXPECT_EQ(meter.lights().mirrored().size(), 16u) << "eight images each way";
   EXPECT_EQ(meter.lights().mirrored().left_out(), 0);
@@ -221,7 +216,7 @@ TEST(VirtualLights, MirrorsThatFaceEachOtherEnd) {
 TEST(VirtualLights, ScenesWithoutMirrorsPayNothing) {
   SceneParts matt;
   matt.quad("floor", matt.diffuse(Vec3(0.5f)), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
-  matt.scene().lights = {sun_at(60), point_at({0, 1, 0})};
+  matt.scene().lights = {sun_at(60), point_light({0, 1, 0})};
   EXPECT_TRUE(VirtualLights(matt.finish()).empty());
   SceneParts dark = floor_mirror();
   EXPECT_TRUE(VirtualLights(dark.finish()).empty()) << "no light";
@@ -260,7 +255,7 @@ TEST(VirtualLights, PanesInOnePlaneAreOneMirror) {
   SceneParts parts;
   const auto glass = parts.add(pane(Vec3(1)));
   for (int i = 0; i < 6; ++i) parts.quad("pane", glass, {i * 1.1f, 0, 0}, {1, 0, 0}, {0, 2, 0});
-  parts.scene().lights = {point_at({2, 1, 3})};
+  parts.scene().lights = {point_light({2, 1, 3})};
   const LightMeter meter(parts.finish());
   EXPECT_EQ(meter.lights().mirrored().size(), 1u);
   EXPECT_EQ(meter.lights().mirrored().mirrors().size(), 2u) << "a front and a back";
