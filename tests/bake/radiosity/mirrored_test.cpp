@@ -34,6 +34,7 @@ Scene sunny(float albedo = 0) {
 
 struct Patch {
   double inside = 0, outside = 0;  // largest error of a texel inside; largest light outside
+  int texels = 0;                  // inside
 };
 
 Patch measure(const Baked& b, double expected, float texel) {
@@ -46,7 +47,7 @@ Patch measure(const Baked& b, double expected, float texel) {
       const Vec3 on = point_on(b.scene, at.triangle, at.barycentric);
       const double e = b.radiosity.pages[p].irradiance[b.texel_map[p].texel[i]].g;
       const float beyond = std::max(std::abs(on.x - shift), std::abs(on.z)) - 0.5f;
-      if (beyond < -texel) patch.inside = std::max(patch.inside, std::abs(e / expected - 1));
+      if (beyond < -texel) patch.inside = std::max(patch.inside, std::abs(e / expected - 1)), ++patch.texels;
       if (beyond > texel) patch.outside = std::max(patch.outside, e);
     }
   return patch;
@@ -62,6 +63,7 @@ TEST_P(MirroredSun, ThePatchOnTheCeilingIsTheClosedForm) {
   const Patch patch = measure(test::bake(sunny(), kTexel, options), 1000 * sine * reflectance, kTexel);
   RecordProperty("inside", std::to_string(patch.inside));
   EXPECT_LT(patch.inside, 0.005);
+  EXPECT_GE(patch.texels, 49) << "a patch of 1 m² by texels of 10 cm";
   EXPECT_LT(patch.outside, 0.5) << "of 780 lux";
 }
 INSTANTIATE_TEST_SUITE_P(Estimators, MirroredSun, testing::Values(Estimator::kCached, Estimator::kReference));
