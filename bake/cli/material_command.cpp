@@ -1,15 +1,12 @@
-#include <nlohmann/json.hpp>
-
 #include "bake/brdf/ward.h"
 #include "bake/cli/commands.h"
 #include "bake/cli/material_plot.h"
 #include "bake/material/evaluate.h"
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kFooter = R"(Examples:
   oriel-bake material --list                               the materials that --plot knows
@@ -36,13 +33,13 @@ Json rgb(const DVec3& v) {
 std::string evaluation_json(const std::vector<Evaluation>& rows) {
   Json out = Json::array();
   for (const Evaluation& r : rows) {
-    Json& entry = out.emplace_back(Json{{"angle_deg", r.angle_deg},
-                                        {"F", rgb(r.f)},
-                                        {"F_schlick_error", rgb(r.f_error)},
-                                        {"D", r.d},
-                                        {"G1", r.g1},
-                                        {"G", r.g2},
-                                        {"albedo", rgb(r.albedo)}});
+    Json& entry = out.push_back({{"angle_deg", r.angle_deg},
+                                 {"F", rgb(r.f)},
+                                 {"F_schlick_error", rgb(r.f_error)},
+                                 {"D", r.d},
+                                 {"G1", r.g1},
+                                 {"G", r.g2},
+                                 {"albedo", rgb(r.albedo)}});
     if (r.compensated) entry["albedo_compensated"] = rgb(*r.compensated);
   }
   return out.dump(2) + "\n";

@@ -1,12 +1,12 @@
 #include "bake/import/json.h"
 
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace oriel::gltf {
 namespace {
 
-// Brackets outside of strings. nlohmann's parser copes with any depth, but what walks its values later recurses.
+// Brackets outside of strings.
 bool nested_deeper_than(std::string_view text, int limit) {
   int depth = 0;
   bool in_string = false;
@@ -26,26 +26,15 @@ bool nested_deeper_than(std::string_view text, int limit) {
   return false;
 }
 
-// What nlohmann says, without its own code in brackets.
-std::string reason(const nlohmann::json::exception& e) {
-  const std::string_view text = e.what();
-  const std::size_t bracket = text.find("] ");
-  return std::string(bracket == std::string_view::npos ? text : text.substr(bracket + 2));
-}
-
-std::string shown(const nlohmann::json& value) {
+std::string shown(const oriel::Json& value) {
   if (value.is_object()) return value.empty() ? "{}" : "an object";
   if (value.is_array()) return fmt::format("an array of {}", value.size());
-  std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  std::string text = value.dump_ascii();
   if (text.size() > 60) text = text.substr(0, 57) + "...";
   return text;
 }
 
 }  // namespace
-
-void JsonDocument::Delete::operator()(nlohmann::json* value) const {
-  delete value;
-}
 
 Result<JsonDocument> JsonDocument::parse(std::span<const std::byte> bytes, const std::string& file) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -55,21 +44,13 @@ Result<JsonDocument> JsonDocument::parse(std::span<const std::byte> bytes, const
     return invalid(file, "found JSON nested deeper than {} levels, expected less", kMaxJsonDepth);
   JsonDocument document;
   document.file_ = file;
-  try {
-    document.value_.reset(new nlohmann::json(nlohmann::json::parse(text.begin(), text.end())));
-  } catch (const nlohmann::json::parse_error& e) {
-    return invalid(file, "found invalid JSON at byte {} of {}: {}", e.byte, text.size(), reason(e));
-  } catch (const nlohmann::json::exception& e) {
-    return invalid(file, "found invalid JSON: {}", reason(e));
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::kRuntime, file, "not enough memory for {} bytes of JSON", text.size());
-  }
-  if (!document.value_->is_object()) return invalid(file, "found {}, expected a JSON object", shown(*document.value_));
+  ORIEL_TRY(document.value_, oriel::Json::parse(text, file));
+  if (!document.value_.is_object()) return invalid(file, "found {}, expected a JSON object", shown(document.value_));
   return document;
 }
 
 Json JsonDocument::root() {
-  return Json(this, value_.get(), "");
+  return Json(this, &value_, "");
 }
 
 Status JsonDocument::status() const {
@@ -89,8 +70,7 @@ Json Json::operator[](const char* key) const {
     expected("an object");
     return Json(document_, nullptr, std::move(path));
   }
-  const auto found = value_->find(key);
-  return Json(document_, found == value_->end() ? nullptr : &*found, std::move(path));
+  return Json(document_, value_->find(key), std::move(path));
 }
 
 Json Json::need(const char* key) const {
@@ -116,7 +96,8 @@ std::vector<std::string> Json::keys() const {
     expected("an object");
     return names;
   }
-  for (const auto& item : value_->items()) names.push_back(item.key());
+  for (const auto& item : value_->items()) names.push_back(item.name);
+  std::ranges::sort(names);
   return names;
 }
 

@@ -2,8 +2,6 @@
 // reading goes on with defaults until someone asks.
 #pragma once
 
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "formats/core/bytes.h"
+#include "formats/core/json.h"
 #include "formats/core/result.h"
 
 namespace oriel::gltf {
@@ -34,10 +33,7 @@ class JsonDocument {
   void add_error(const std::string& path, std::string message);
 
  private:
-  struct Delete {
-    void operator()(nlohmann::json* value) const;
-  };
-  std::unique_ptr<nlohmann::json, Delete> value_;
+  oriel::Json value_;
   std::string file_;
   std::optional<Error> first_error_;
 };
@@ -46,7 +42,7 @@ class JsonDocument {
 // the wrong type or range, which is recorded in the document.
 class Json {
  public:
-  Json(JsonDocument* document, const nlohmann::json* value, std::string path)
+  Json(JsonDocument* document, const oriel::Json* value, std::string path)
       : document_(document), value_(value), path_(std::move(path)) {}
 
   bool present() const { return value_ != nullptr; }
@@ -85,7 +81,7 @@ class Json {
 
  private:
   JsonDocument* document_;
-  const nlohmann::json* value_;
+  const oriel::Json* value_;
   std::string path_;
 };
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
 #include "formats/core/check.h"
 #include "formats/core/color.h"
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 #include "formats/query/day_hours.h"
 
@@ -239,10 +239,8 @@ class Groups {
 };
 
 Result<LightGroupOptions> read_groups(const std::string& file) {
-  using Json = nlohmann::ordered_json;
   ORIEL_TRY(const Bytes bytes, read_file(file));
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  const Json json = Json::parse(text, text + bytes.size(), nullptr, false);
+  const Json json = Json::parse(bytes).value_or(Json());
   const char* expected = "expected {\"group\": [\"node\", …], …}";
   if (!json.is_object()) return invalid(file, "found no JSON object, {}", expected);
   LightGroupOptions options{LightGrouping::kNamed, file, {}};

@@ -1,17 +1,14 @@
 #include "bake/run/option_table.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bake/jobs/memory.h"
 #include "bake/run/method.h"
 #include "bake/run/option_values.h"
 #include "bake/trace/virtual_lights.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char *kLightmap = "Lightmap", *kLight = "Light", *kReflections = "Reflections", *kMovers = "Movers",
                      *kScene = "Scene";
@@ -386,7 +383,7 @@ std::string options_json(const BakeOptions& options, std::uint64_t seed) {
                {"min_reflector_area_m2", o.reflectors.min_area_m2},
                {"element_m", planned ? o.planned.element_m : o.views.element_m},
                {"transfer_samples", o.transfer.samples}});
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may hold any bytes
+  return json.dump();  // names may hold any bytes
 }
 
 }  // namespace oriel

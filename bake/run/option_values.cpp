@@ -5,11 +5,6 @@
 #include "formats/core/text.h"
 
 namespace oriel {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-}  // namespace
 
 std::string share_text(double share) {
   return share > 0 ? fmt::format("{:.6g}%", 100 * share) : "";

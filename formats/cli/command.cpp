@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "formats/cli/help.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 
 namespace oriel {
@@ -201,9 +201,8 @@ void complain(const CommandLine& program, const std::vector<std::string>& words,
               const char* after) {
   const bool json = std::find(words.begin(), words.end(), "--json-log") != words.end();
   if (json) {
-    const nlohmann::ordered_json line = {
-        {"event", "error"}, {"tool", program.command.name}, {"code", code}, {"message", message}};
-    std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    const Json line = {{"event", "error"}, {"tool", program.command.name}, {"code", code}, {"message", message}};
+    std::fprintf(stderr, "%s\n", line.dump().c_str());
   } else {
     std::fprintf(stderr, "%s: %s%s\n", program.command.name.c_str(), message.c_str(), after);
   }

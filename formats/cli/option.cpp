@@ -3,13 +3,12 @@
 #include <charconv>
 #include <cstdint>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <type_traits>
+
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Not a number is neither more nor less than any bound, and refused.
 template <class T>

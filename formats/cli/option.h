@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "formats/core/json.h"
 #include "formats/core/result.h"
 
 namespace oriel {
@@ -20,7 +20,7 @@ struct OptionValue {
   std::string type;  // as the help has it, "auto|LENGTH": words without capitals are taken as they stand. Empty: a flag
   std::function<Status(const std::string&)> set;  // error kUsage: what was found and expected. A flag gets ""
   std::function<std::string()> get;               // as set() takes it; empty: nothing is set
-  std::function<nlohmann::ordered_json()> json = {};
+  std::function<Json()> json = {};
   bool repeats = false;  // set() is called for each
 };
 
@@ -42,7 +42,7 @@ struct Option {
 // "--output" of "-o,--output".
 std::string long_name(const Option& option);
 // Appends to the record.
-void record(const Option& option, nlohmann::ordered_json& record);
+void record(const Option& option, Json& record);
 void append(std::vector<Option>& options, std::vector<Option> more);
 
 // "a b": appends a word to a list.
@@ -84,7 +84,7 @@ OptionValue choice(T& target, const Pairs& pairs) {
 
 // What json() of a number is; for the types of number().
 template <class T>
-std::function<nlohmann::ordered_json()> json_of(const T& value);
+std::function<Json()> json_of(const T& value);
 
 // A value with a unit: parse(text) gives it as a Result, print(value) its text.
 template <class T, class Parse, class Print>

@@ -71,7 +71,7 @@ Result<Bytes> Glb::file() const {
   const std::size_t binary = padded(binary_.bytes().size());
   Json whole = json;
   if (binary > 0) whole["buffers"] = {{{"byteLength", binary}}};
-  std::string text = whole.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = whole.dump();
   text.resize(padded(text.size()), ' ');
   const std::size_t total = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
   if (total > 0xffffffff) return invalid("", "the scene takes {} bytes as .glb, expected less than 2^32", total);

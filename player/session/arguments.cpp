@@ -1,9 +1,9 @@
 #include "player/session/arguments.h"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "formats/cli/command.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 #include "player/session/keys.h"
 #include "player/session/live_options.h"
@@ -59,7 +59,7 @@ OptionValue exposure(std::optional<float>& ev100) {
     return fail(ErrorCode::kUsage, "", "found '{}', expected auto or an exposure value from -40 to 40", typed);
   };
   value.get = [&ev100] { return ev100 ? fmt::format("{}", *ev100) : "auto"; };
-  value.json = [&ev100] { return ev100 ? nlohmann::ordered_json(*ev100) : nlohmann::ordered_json("auto"); };
+  value.json = [&ev100] { return ev100 ? Json(*ev100) : Json("auto"); };
   return value;
 }
 
@@ -70,7 +70,7 @@ OptionValue gpu_memory(std::uint64_t& bytes) {
             return {};
           },
           [&bytes] { return bytes == kNoLimit ? "" : fmt::format("{}B", bytes); },
-          [&bytes] { return bytes == kNoLimit ? nlohmann::ordered_json() : nlohmann::ordered_json(bytes); }};
+          [&bytes] { return bytes == kNoLimit ? Json() : Json(bytes); }};
 }
 
 OptionValue frames(int& count) {
@@ -367,9 +367,9 @@ Status settle(const Given& given, PlayArguments& out) {
 
 }  // namespace
 
-nlohmann::ordered_json options_json(const PlayArguments& arguments) {
+Json options_json(const PlayArguments& arguments) {
   PlayArguments copy = arguments;
-  nlohmann::ordered_json json;
+  Json json;
   for (const Option& option : play_options(copy)) record(option, json);
   return json;
 }

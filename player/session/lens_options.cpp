@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 
 namespace oriel {
@@ -59,9 +58,7 @@ OptionValue length(float& metres, const std::string& zero) {
             return {};
           },
           [&metres, zero] { return metres > 0 ? fmt::format("{:g}m", metres) : zero; },
-          [&metres, zero] {
-            return metres > 0 || zero.empty() ? nlohmann::ordered_json(metres) : nlohmann::ordered_json(zero);
-          }};
+          [&metres, zero] { return metres > 0 || zero.empty() ? Json(metres) : Json(zero); }};
 }
 
 }  // namespace oriel

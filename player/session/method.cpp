@@ -1,7 +1,6 @@
 #include "player/session/method.h"
 
-#include <nlohmann/json.hpp>
-
+#include "formats/core/json.h"
 #include "player/movers/light_samples.h"
 #include "player/session/option_names.h"
 
@@ -95,11 +94,9 @@ std::string settle_method(const Given& given, PlayArguments& out) {
 }
 
 std::string method_of(const Pack& pack) {
-  using Json = nlohmann::json;
-  const Json provenance = Json::parse(pack.provenance, nullptr, false);  // a pack's text may be anything
-  const Json::json_pointer at("/options/method");
-  const bool tells = provenance.is_object() && provenance.contains(at) && provenance[at].is_string();
-  return tells ? provenance[at].get<std::string>() : "";
+  const Json provenance = Json::parse(pack.provenance).value_or(Json());  // a pack's text may be anything
+  const Json& method = provenance["options"]["method"];
+  return method.is_string() ? method.get<std::string>() : "";
 }
 
 std::string other_method(const Pack& pack, const PlayArguments& arguments) {

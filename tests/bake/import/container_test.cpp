@@ -140,8 +140,10 @@ TEST(Fuzz, MutatedGlbNeverCrashesAndNeverBreaksAPromise) {
                       {"material", 0}});
   node["rotation"] = {0, 0, 0.6, 0.8};
   node["scale"] = {1, -1, 2};
-  g.material() = json::parse(
-      R"({"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],"metallicFactor":0},"emissiveFactor":[1,1,1]})");
+  g.material() =
+      json::parse(
+          R"({"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],"metallicFactor":0},"emissiveFactor":[1,1,1]})")
+          .value();
   const std::string good = g.glb();
   ASSERT_TRUE(import_bytes(good).ok()) << import_bytes(good).error();
   std::uint64_t state = 1;

@@ -24,7 +24,7 @@ Gltf textured(const char* material) {
   Gltf g;
   const int p = g.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}), uv = g.floats("VEC2", {0, 0, 1, 0, 0, 1});
   g.add({{"attributes", {{"POSITION", p}, {"TEXCOORD_0", uv}}}, {"material", 0}});
-  g.material() = json::parse(material);
+  g.material() = json::parse(material).value();
   g.doc["images"] = {{{"uri", std::string("data:image/png;base64,") + kRgba2x2}}};
   g.doc["samplers"] = {{{"magFilter", 9728}}};
   g.doc["textures"] = {{{"source", 0}, {"sampler", 0}}};

@@ -6,13 +6,13 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "bake/run/fit_maps.h"
 #include "bake/run/pipeline.h"
 #include "bake/run/prepare.h"
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"
 
@@ -80,10 +80,10 @@ TEST_F(Anytime, TheFirstSignalEndsWithWhatIsThere) {
   EXPECT_NE(log().find("finishing with what is there"), std::string::npos) << log();
   EXPECT_NE(log().find("ended early"), std::string::npos) << log();
   expect_whole(pack());
-  const auto plan = nlohmann::json::parse(read_pack(pack())->plan);
-  EXPECT_TRUE(plan["radiosity"]["ended_early"]);
-  EXPECT_GT(plan["radiosity"]["relative_standard_error"], 0.0005) << "the error is that of what is there";
-  EXPECT_LT(plan["radiosity"]["relative_standard_error"], 0.2);
+  const auto plan = Json::parse(read_pack(pack())->plan).value();
+  EXPECT_TRUE(plan["radiosity"]["ended_early"].get<bool>());
+  EXPECT_GT(plan["radiosity"]["relative_standard_error"].get<double>(), 0.0005) << "the error is that of what is there";
+  EXPECT_LT(plan["radiosity"]["relative_standard_error"].get<double>(), 0.2);
 }
 
 TEST_F(Anytime, TheSecondSignalStopsAtOnce) {

@@ -5,13 +5,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "bake/run/option_table.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
@@ -129,14 +129,14 @@ TEST_F(Options, ValuesCanBeGivenAsTheyAreListed) {
 }
 
 TEST_F(Options, TheRecordHoldsEveryOption) {
-  const auto record = nlohmann::json::parse(options_json(command_line_defaults(), 7));
+  const auto record = Json::parse(options_json(command_line_defaults(), 7)).value();
   EXPECT_EQ(record["seed"], 7);
   EXPECT_EQ(record["texel_m"], "auto");
   EXPECT_EQ(record["views"], "planned");
   EXPECT_EQ(record["map_memory"], 128 << 20);
   BakeOptions options = command_line_defaults();
   for (const Option& option : bake_options(options)) {
-    nlohmann::ordered_json one = nlohmann::ordered_json::object();
+    Json one = Json::object();
     oriel::record(option, one);
     EXPECT_FALSE(one.empty()) << option.name << " can change a pack and is not recorded";
   }

@@ -16,7 +16,7 @@
 namespace oriel {
 namespace {
 namespace fs = std::filesystem;
-using nlohmann::json;
+using json = Json;
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file);
@@ -39,8 +39,9 @@ class BakeOutcome : public ::testing::Test {
   std::string log() const { return text_of(folder_.path() / "log"); }
   // Which fits its schema.
   json report() const {
-    const json found = json::parse(text_of(folder_.path() / "report.json"), nullptr, false);
-    const testing::JsonSchema schema(json::parse(text_of(fs::path(ORIEL_SOURCE_DIR) / "docs/report.schema.json")));
+    const json found = json::parse(text_of(folder_.path() / "report.json")).value_or(Json());
+    const testing::JsonSchema schema(
+        json::parse(text_of(fs::path(ORIEL_SOURCE_DIR) / "docs/report.schema.json")).value());
     EXPECT_EQ(schema.complaint(found), "");
     return found;
   }
@@ -50,7 +51,7 @@ class BakeOutcome : public ::testing::Test {
     std::string event;
     int lines = 0;
     for (std::string line; std::getline(in, line); ++lines) {
-      const json parsed = json::parse(line, nullptr, false);
+      const json parsed = json::parse(line).value_or(Json());
       ASSERT_TRUE(parsed.is_object()) << line;
       EXPECT_EQ(parsed.value("tool", ""), "oriel-bake") << line;
       event = parsed.value("event", "");
@@ -193,8 +194,9 @@ TEST_F(BakeOutcome, SigtermEndsItWithinTenSeconds) {
 
 TEST(JsonSchemaTest, SeesWhatDoesNotFit) {
   const testing::JsonSchema schema(json::parse(
-      R"({"type": "object", "required": ["a"], "additionalProperties": false,
-          "properties": {"a": {"type": ["integer", "null"]}, "b": {"type": "array", "items": {"enum": ["x"]}}}})"));
+                                       R"({"type": "object", "required": ["a"], "additionalProperties": false,
+          "properties": {"a": {"type": ["integer", "null"]}, "b": {"type": "array", "items": {"enum": ["x"]}}}})")
+                                       .value());
   EXPECT_EQ(schema.complaint({{"a", 1}, {"b", {"x"}}}), "");
   EXPECT_EQ(schema.complaint({{"a", nullptr}}), "");
   for (const json& bad : {json::object(), json{{"a", "1"}}, json{{"a", 1}, {"b", {"y"}}}, json{{"a", 1}, {"c", 1}}})

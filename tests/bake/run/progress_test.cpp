@@ -1,10 +1,10 @@
 // Nobody looks at a silent program: whatever it does, a line comes.
 #include "bake/cli/progress.h"
+#include "formats/core/json.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace oriel {
@@ -74,11 +74,11 @@ TEST(ProgressPrinter, TimeLeftIsThatOfTheWhole) {
   std::istringstream in(testing::internal::GetCapturedStderr());
   std::string line;
   ASSERT_TRUE(std::getline(in, line));
-  EXPECT_TRUE(nlohmann::json::parse(line)["seconds_left"].is_null()) << line;
+  EXPECT_TRUE(Json::parse(line).value()["seconds_left"].is_null()) << line;
   double left = 100;
   int lines = 0;
   for (; std::getline(in, line); ++lines) {
-    const double now = nlohmann::json::parse(line)["seconds_left"];
+    const double now = Json::parse(line).value()["seconds_left"].get<double>();
     EXPECT_LE(now, left) << line;
     left = now;
   }

@@ -4,10 +4,10 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/pack/index.h"
 #include "formats/pack/writer.h"
 #include "tests/support/temporary_folder.h"
@@ -88,13 +88,13 @@ TEST_F(PlayLoading, AMemoryLimitIsHeldAndTold) {
         << bad;
   ASSERT_TRUE(ends(run("tiny.oriel --offscreen -o a.png --gpu-memory 1GiB --stats a.json"), 0, "a.png"));
   ASSERT_TRUE(ends(run("tiny.oriel --offscreen -o b.png --gpu-memory 100B --stats b.json"), 0, "left out"));
-  const auto whole = nlohmann::json::parse(std::ifstream(folder() / "a.json"))["frames"][0];
+  const auto whole = Json::parse(*read_file(folder() / "a.json")).value()["frames"][0];
   EXPECT_EQ(whole["coarser_images"], 0);
-  EXPECT_GT(whole["image_bytes"], 100);
-  const auto limited = nlohmann::json::parse(std::ifstream(folder() / "b.json"));
+  EXPECT_GT(whole["image_bytes"].get<double>(), 100);
+  const auto limited = Json::parse(*read_file(folder() / "b.json")).value();
   EXPECT_EQ(limited["options"]["gpu_memory"], 100);
-  EXPECT_LE(limited["frames"][0]["most_image_bytes"], 100);
-  EXPECT_GT(limited["frames"][0]["missing_images"], 0);
+  EXPECT_LE(limited["frames"][0]["most_image_bytes"].get<double>(), 100);
+  EXPECT_GT(limited["frames"][0]["missing_images"].get<double>(), 0);
 }
 
 TEST_F(PlayLoading, OffscreenABrokenPageIsAnError) {
