@@ -204,22 +204,12 @@ ToolCommand bake_command(BakeSession& session) {
   append(out.options, bake_options(args->bake));
   append(
       out.options,
-      {{"--cache",
-        "Run",
+      {{"--cache", "Run",
         "Folder of finished units of work: a bake that was killed, or is repeated after a change, computes only what "
         "is not there. Default: .oriel-cache beside the pack",
-        path(args->cache, "DIR"),
-        Use::kEveryday,
-        {},
-        "cache.md"},
-       {"--no-cache",
-        "Run",
-        "Compute everything, and keep nothing but the pack",
-        flag(args->no_cache),
-        Use::kRare,
-        {},
-        {},
-        {"--cache"}},
+        path(args->cache, "DIR"), Use::kEveryday, "", "cache.md"},
+       {"--no-cache", "Run", "Compute everything, and keep nothing but the pack", flag(args->no_cache), Use::kRare, "",
+        "", "--cache"},
        {"--report", "Run",
         "Write how it ended, what was done, omitted and measured, and how long it took, as JSON "
         "(docs/report.schema.json). It is there on failure too",

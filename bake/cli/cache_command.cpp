@@ -40,14 +40,8 @@ ToolCommand cache_command(BakeSession&) {
       .footer = kFooter,
       .options = {{"DIR", "Arguments", "The folder of the cache", path(args->folder, "DIR"), Use::kRequired},
                   {"--list", "Run", "Print its units and bytes; so without --prune", flag(args->list), Use::kEveryday},
-                  {"--prune",
-                   "Run",
-                   "Remove units until no more than that is left",
-                   quantity(args->bytes, "SIZE", parse_bytes, bytes_text),
-                   Use::kEveryday,
-                   {},
-                   {},
-                   {"--list"}}}};
+                  {"--prune", "Run", "Remove units until no more than that is left",
+                   quantity(args->bytes, "SIZE", parse_bytes, bytes_text), Use::kEveryday, "", "", "--list"}}};
   out.settle = [args](const Given& given) -> Status {
     args->prunes = given.has("--prune");
     return {};

@@ -68,14 +68,8 @@ ToolCommand lux_command(BakeSession& session) {
            "CSV of x,y,z,nx,ny,nz: position in metres and the direction that the meter faces, in the scene's own "
            "space; one header line may come first",
            path(job.points, "FILE"), Use::kEveryday},
-          {"--grid",
-           "Meters",
-           "A level grid over a node's upward faces: its name, the spacing, the height above it",
-           grid(job.grid),
-           Use::kEveryday,
-           {},
-           {},
-           {"--points"}},
+          {"--grid", "Meters", "A level grid over a node's upward faces: its name, the spacing, the height above it",
+           grid(job.grid), Use::kEveryday, "", "", "--points"},
           {"-o,--output", "Meters", "File for the table instead of stdout", path(args->output, "FILE"), Use::kEveryday},
           {"--error", "Meters",
            "Standard error asked for, of luminance, relative to the point's illuminance plus 1 % of the mean "

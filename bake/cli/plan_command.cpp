@@ -86,14 +86,10 @@ ToolCommand plan_command(BakeSession& session) {
            "Findings that are known and taken: kinds, or kinds with objects, as \"albedo,one-sided "
            "wall:Curtain*\", or @FILE with one a line. May be repeated",
            allowed(args->allowed), Use::kEveryday},
-          {"--cache",
-           "Run",
+          {"--cache", "Run",
            "Folder of finished units of work, for plans and bakes. Default: .oriel-cache in this folder, if there "
            "is one",
-           path(args->cache, "DIR"),
-           Use::kRare,
-           {},
-           "cache.md"}}};
+           path(args->cache, "DIR"), Use::kRare, "", "cache.md"}}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };

@@ -13,9 +13,9 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
        "As published, to compare with, for packs of oriel-bake --method likewise. bastos1999: --reflections points "
        "--blur constant --fill off --fresnel sphere. diefenbach1997: lamps by passes with shadow volumes, in mirrors "
        "and by way of mirrors too, over a lightmap without their light",
-       choice(out.method, Names<ShownMethod>{{"oriel", ShownMethod::kOriel},
-                                             {"bastos1999", ShownMethod::kBastos1999},
-                                             {"diefenbach1997", ShownMethod::kDiefenbach1997}}),
+       choice(out.method, {{"oriel", ShownMethod::kOriel},
+                           {"bastos1999", ShownMethod::kBastos1999},
+                           {"diefenbach1997", ShownMethod::kDiefenbach1997}}),
        Use::kRare, "method"},
       {"--shadow-points", group, "Of --method diefenbach1997: points of a lamp that has a size, each with its passes",
        number(out.frame.multi_pass.points, 1, kMaxLightPoints), Use::kRare, "shadow_points"},

@@ -121,7 +121,7 @@ TEST_F(Options, ValuesCanBeGivenAsTheyAreListed) {
   options.radiosity.samples = 16;
   for (const Option& option : bake_options(options)) {
     const std::string value = option.value.get();
-    if (value.empty() || option.value.type.empty() || option.name == "--resolution") continue;
+    if (value.empty() || option.value.type.empty() || long_name(option) == "--resolution") continue;
     EXPECT_TRUE(option.value.set(value)) << option.name << " " << value;
     EXPECT_EQ(option.value.get(), value) << option.name;
   }
