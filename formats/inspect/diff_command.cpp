@@ -66,8 +66,8 @@ const char* text_of(SurfaceState state) {
   }
 }
 
-bool within(const PackDiff& diff, double tolerance) {
-  if (tolerance < 0) return true;
+bool within(const PackDiff& diff, std::optional<double> tolerance) {
+  if (!tolerance) return true;
   for (const SurfaceChange& s : diff.surfaces)
     if (s.state != SurfaceState::kBoth) return false;
   return diff.largest() <= tolerance;

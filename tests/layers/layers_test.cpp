@@ -30,7 +30,7 @@ const Arrows kRestsOn = {
     {"formats/pack", {"formats/query"}},
     {"formats/analysis", {"formats/pack", "formats/image"}},
     {"formats/export", {"formats/analysis"}},
-    {"formats/inspect", {"formats/export"}},
+    {"formats/inspect", {"formats/export", "formats/cli"}},
     {"bake/jobs", {"formats/core"}},
     {"bake/brdf", {"formats/core"}},
     {"bake/scene", {"bake/jobs", "bake/brdf", "formats/query"}},
@@ -66,7 +66,7 @@ const Arrows kRestsOn = {
     {"preview/frame", {"bake/import", "bake/reference", "player/passes"}},  // where baker and player meet
     {"preview", {"preview/frame", "bake/run", "player/window"}},
     {"scenes/kit", {"formats/core"}},
-    {"scenes", {"scenes/kit", "formats/image"}},
+    {"scenes", {"scenes/kit", "formats/image", "formats/cli"}},
 };
 
 // Each folder and all that it may include, besides itself: what it rests on, and what that rests on.
@@ -97,7 +97,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"GLFW/", {"player/window"}},
     {"imgui", {"player/window", "preview"}},
     {"backends/imgui", {"player/window"}},
-    {"CLI/", {"formats/cli", "formats/inspect", "scenes"}},
+    {"CLI/", {"formats/cli"}},
     {"epoxy/",
      {"player/gpu", "player/images", "player/scene", "player/movers", "player/reflections", "player/passes",
       "player/window", "player/app"}},
