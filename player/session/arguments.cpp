@@ -286,6 +286,8 @@ std::vector<Option> window_options(PlayArguments& out) {
        texts(out.cameras, "NAME|N|PATH@S|ex,ey,ez,tx,ty,tz|all"), Use::kEveryday},
       {"--panel", kWindow, "Open the panel at once: brightness, quality, times, what is under the pointer",
        flag(out.panel), Use::kEveryday},
+      {"--log-frames", kWindow, "A line on stderr whenever the window shows something else: for scripts that drive it",
+       flag(out.log_frames)},
       {"--quality", kWindow,
        "auto keeps 15 frames a second while something moves, with coarser frames where the device needs that, and "
        "draws "
