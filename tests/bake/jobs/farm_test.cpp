@@ -5,16 +5,17 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "formats/core/file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/waiting.h"
 
 namespace oriel {
 namespace {
 namespace fs = std::filesystem;
+using testing::count_files;
+using testing::wait_until;
 
 class Farm : public ::testing::Test {
  protected:
@@ -125,7 +126,7 @@ TEST_F(Farm, WorkersThatDieAndWhoseClocksAreWrongMakeTheSameBytes) {
   const fs::path faketime = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1";
   if (fs::exists(faketime))
     workers.push_back(start(worker("shared"), "LD_PRELOAD=" + faketime.string() + " FAKETIME=-3d"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  ASSERT_TRUE(wait_until([&] { return count_files(folder_.path() / "shared", ".unit") > 3; })) << "they work";
   ::kill(workers[0], SIGKILL);
   ASSERT_EQ(finish(bake("farm.oriel", cache)), 0);
   EXPECT_EQ(bytes("plain.oriel"), bytes("farm.oriel"));

