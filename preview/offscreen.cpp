@@ -1,10 +1,10 @@
 #include "preview/offscreen.h"
 
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "bake/run/view_options.h"
 #include "formats/core/color.h"
+#include "formats/core/json.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
 #include "formats/query/camera_notes.h"
@@ -21,7 +21,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-nlohmann::ordered_json json_of_pass(const PreviewStats& s) {
+Json json_of_pass(const PreviewStats& s) {
   constexpr const char* kMethods[] = {"none", "volumes", "rays", "auto"};
   return {{"shadows", kMethods[static_cast<int>(s.shadows)]},
           {"total_s", s.total_s},
@@ -37,7 +37,7 @@ nlohmann::ordered_json json_of_pass(const PreviewStats& s) {
 }
 
 // Of what was drawn: the mean over pixels that are numbers, cd/m², and how many are none.
-nlohmann::ordered_json json_of_frame(const FloatImage& frame) {
+Json json_of_frame(const FloatImage& frame) {
   double sum = 0;
   std::size_t finite = 0;
   const std::size_t pixels = frame.pixels.size() / 3;
@@ -139,23 +139,23 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
   }
   ORIEL_TRY(const FrameTarget* frame, renderer.frame(paths ? &*paths : nullptr));
   if (a.stats) {
-    const nlohmann::ordered_json json = {{"first_lit_s", first_s},
-                                         {"first_lit_cpu_s", first_cpu_s},
-                                         {"drawn_s", drawn_s},
-                                         {"cpu_s", static_cast<double>(std::clock()) / CLOCKS_PER_SEC},
-                                         {"device_s", ready_s},
-                                         {"loaded_s", loaded_s},
-                                         {"import_s", scene->import_s},
-                                         {"rays_s", scene->rays_s},
-                                         {"passes_s", scene->passes_s},
-                                         {"triangles", scene->scene().triangles.size()},
-                                         {"edges", scene->shadows->edges()},
-                                         {"lamps", scene->lamps.count()},
-                                         {"passes", renderer.passes()},
-                                         {"paths", a.paths.value_or(0)},
-                                         {"noise", noise},
-                                         {"passes_frame", json_of_frame(renderer.read_mean())},
-                                         {"last_pass", json_of_pass(stats)}};
+    const Json json = {{"first_lit_s", first_s},
+                       {"first_lit_cpu_s", first_cpu_s},
+                       {"drawn_s", drawn_s},
+                       {"cpu_s", static_cast<double>(std::clock()) / CLOCKS_PER_SEC},
+                       {"device_s", ready_s},
+                       {"loaded_s", loaded_s},
+                       {"import_s", scene->import_s},
+                       {"rays_s", scene->rays_s},
+                       {"passes_s", scene->passes_s},
+                       {"triangles", scene->scene().triangles.size()},
+                       {"edges", scene->shadows->edges()},
+                       {"lamps", scene->lamps.count()},
+                       {"passes", renderer.passes()},
+                       {"paths", a.paths.value_or(0)},
+                       {"noise", noise},
+                       {"passes_frame", json_of_frame(renderer.read_mean())},
+                       {"last_pass", json_of_pass(stats)}};
     fmt::print("{}\n", json.dump());
   }
   if (a.output.empty()) return {};

@@ -18,7 +18,7 @@ constexpr double kSlow_s = 0.25;  // a pass that takes longer is drawn smaller w
 constexpr double kMessage_s = 4;
 constexpr double kResting_s = 0.05;  // between looks at what threads do
 
-double seconds_since(Clock::time_point start) {
+double seconds_from(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -54,12 +54,12 @@ class PreviewWindow {
   Status run(Clock::time_point started) {
     Clock::time_point last = Clock::now();
     for (int frames = 0; frames != arguments_.frames;) {
-      const auto dt_s = static_cast<float>(seconds_since(std::exchange(last, Clock::now())));
+      const auto dt_s = static_cast<float>(seconds_from(std::exchange(last, Clock::now())));
       InputFrame input = input_.poll(dt_s);
       if (context_.stopped()) return fail(ErrorCode::kStopped, "", "stopped by the user");
       if (input.escape || input.quit) return {};
       ORIEL_TRY_VOID(take_news());
-      if (gui_.has_pointer() && !input_.grabbed()) input.clicked = false, input.move.wheel = 0;
+      if (gui_.has_pointer() && !input_.grabbed()) input.ignore_pointer();
       act(input, dt_s);
       int width = 0, height = 0;
       glfwGetFramebufferSize(window_.get(), &width, &height);
@@ -90,7 +90,7 @@ class PreviewWindow {
     restart_ = true;
     if (!arguments_.stats) return;
     if (std::exchange(first_, false)) {
-      fmt::print("{{\"first_lit_s\":{:.3f}}}\n", seconds_since(started));
+      fmt::print("{{\"first_lit_s\":{:.3f}}}\n", seconds_from(started));
     } else {
       std::error_code ec;
       const auto saved = std::filesystem::last_write_time(arguments_.scene.file, ec);
@@ -144,7 +144,7 @@ class PreviewWindow {
 
   void act(const InputFrame& input, float dt_s) {
     for (const Command& command : input.commands) perform(command);
-    if (input.clicked) input_.grab(true);
+    if (input.clicked()) input_.grab(true);
     if (!scene_) return;
     const Camera before = camera_;
     camera_ = move_camera(camera_, move_, input.move, dt_s);
@@ -194,7 +194,7 @@ class PreviewWindow {
   }
 
   Status draw(const IVec2& window) {
-    if (seconds_since(said_) > kMessage_s) status_.message.clear();
+    if (seconds_from(said_) > kMessage_s) status_.message.clear();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, window.x, window.y);
     if (!scene_) {

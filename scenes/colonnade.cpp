@@ -7,7 +7,7 @@ namespace oriel::sample {
 namespace {
 
 constexpr Vec3 kHall{40, 6, 20};  // from the origin
-constexpr int kAlong = 20, kAcross = 10;
+constexpr int kColumnsAlong = 20, kColumnsAcross = 10;
 constexpr Vec2 kPanel{2.4f, 0.6f};  // of the ceiling, 5 cm below it
 
 void add_hall(SampleScene& scene) {
@@ -47,8 +47,8 @@ SampleScene make_colonnade() {
   scene.name = "Colonnade";
   add_hall(scene);
   const std::uint32_t stone = add_diffuse(scene, "stone", Vec3(0.6f, 0.57f, 0.5f));
-  for (int i = 0; i < kAlong; ++i)
-    for (int j = 0; j < kAcross; ++j)
+  for (int i = 0; i < kColumnsAlong; ++i)
+    for (int j = 0; j < kColumnsAcross; ++j)
       add_column(scene, stone, Vec3(static_cast<float>(i) * 2 + 1, 0, static_cast<float>(j) * 2 + 1),
                  "column " + std::to_string(i + 1) + "." + std::to_string(j + 1));
   const std::uint32_t lamp = add_diffuse(scene, "lamp", Vec3(0.8f), Vec3(9000, 8600, 8000));

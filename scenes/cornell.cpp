@@ -14,7 +14,7 @@ void add(SampleMesh& mesh, const Corners& corners) {
   add_corners(mesh, metres(corners[0]), metres(corners[1]), metres(corners[2]), metres(corners[3]));
 }
 
-constexpr Corners kFloor{{{552.8f, 0, 0}, {0, 0, 0}, {0, 0, 559.2f}, {549.6f, 0, 559.2f}}};
+constexpr Corners kBoxFloor{{{552.8f, 0, 0}, {0, 0, 0}, {0, 0, 559.2f}, {549.6f, 0, 559.2f}}};
 constexpr Corners kCeiling{{{556, 548.8f, 0}, {556, 548.8f, 559.2f}, {0, 548.8f, 559.2f}, {0, 548.8f, 0}}};
 constexpr Corners kLight{{{343, 548.8f, 227}, {343, 548.8f, 332}, {213, 548.8f, 332}, {213, 548.8f, 227}}};
 constexpr Corners kBackWall{{{549.6f, 0, 559.2f}, {0, 0, 559.2f}, {0, 548.8f, 559.2f}, {556, 548.8f, 559.2f}}};
@@ -41,11 +41,11 @@ SampleMesh wall(std::string name, std::uint32_t material, const Corners& corners
   return mesh;
 }
 
-struct Materials {
+struct BoxMaterials {
   std::uint32_t white, red, green, light;
 };
 
-Materials add_materials(SampleScene& scene) {
+BoxMaterials add_materials(SampleScene& scene) {
   const auto material = [&](std::string name, const Vec3& color, const Vec3& emission = Vec3(0)) {
     return add_material(scene, {.name = std::move(name), .base_color = color, .emission = emission});
   };
@@ -58,8 +58,8 @@ Materials add_materials(SampleScene& scene) {
 }
 
 // The box, its light and the published camera: focal length 0.035 behind a film of 0.025 squared.
-void add_walls(SampleScene& scene, const Materials& m, SampleMesh ceiling, const Corners& light) {
-  place(scene, wall("floor", m.white, kFloor));
+void add_walls(SampleScene& scene, const BoxMaterials& m, SampleMesh ceiling, const Corners& light) {
+  place(scene, wall("floor", m.white, kBoxFloor));
   place(scene, std::move(ceiling));
   place(scene, wall("light", m.light, light));
   place(scene, wall("back wall", m.white, kBackWall));
@@ -74,7 +74,7 @@ void add_walls(SampleScene& scene, const Materials& m, SampleMesh ceiling, const
 SampleScene make_cornell() {
   SampleScene scene;
   scene.name = "Cornell box";
-  const Materials m = add_materials(scene);
+  const BoxMaterials m = add_materials(scene);
   SampleMesh ceiling{"ceiling", m.white};
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t next = (i + 1) % 4;
@@ -89,7 +89,7 @@ SampleScene make_cornell() {
 SampleScene make_glass_sphere() {
   SampleScene scene;
   scene.name = "Cornell box with a glass sphere";
-  const Materials m = add_materials(scene);
+  const BoxMaterials m = add_materials(scene);
   Corners light = kLight;
   for (Vec3& corner : light) corner.y -= 2;  // the ceiling has no hole
   add_walls(scene, m, wall("ceiling", m.white, kCeiling), light);

@@ -4,8 +4,8 @@
 namespace oriel::sample {
 namespace {
 
-constexpr Vec3 kRoom{3, 2.6f, 3};  // from the origin; open towards +z
-constexpr float kPanel = 0.7f;     // side of the ceiling panel
+constexpr Vec3 kGlassRoom{3, 2.6f, 3};  // from the origin; open towards +z
+constexpr float kGlassPanel = 0.7f;     // side of the ceiling panel
 
 std::uint32_t glass(SampleScene& scene, std::string name, float thickness_m, const Vec3& left_after_1m,
                     float roughness = 0) {
@@ -22,18 +22,18 @@ std::uint32_t glass(SampleScene& scene, std::string name, float thickness_m, con
 
 void add_walls(SampleScene& scene) {
   const std::uint32_t white = add_diffuse(scene, "white", Vec3(0.73f));
-  const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
+  const Vec3 x(kGlassRoom.x, 0, 0), y(0, kGlassRoom.y, 0), z(0, 0, kGlassRoom.z);
   place_quad(scene, "floor", white, {Vec3(0), z, x});
   place_quad(scene, "back wall", white, {Vec3(0), x, y});
   place_quad(scene, "front wall", white, {z, y, x});
   place_quad(scene, "left wall", add_diffuse(scene, "red", Vec3(0.61f, 0.06f, 0.06f)), {Vec3(0), y, z});
   place_quad(scene, "right wall", add_diffuse(scene, "green", Vec3(0.12f, 0.44f, 0.11f)), {x, z, y});
-  const float low = 0.5f * (kRoom.x - kPanel), share = kPanel / kRoom.x;
+  const float low = 0.5f * (kGlassRoom.x - kGlassPanel), share = kGlassPanel / kGlassRoom.x;
   SampleMesh ceiling{"ceiling", white};
   add_quad_around(ceiling, {y, x, z}, {Vec2(0.5f - share / 2), Vec2(0.5f + share / 2)});
   place(scene, std::move(ceiling));
   place_quad(scene, "panel", add_diffuse(scene, "panel", Vec3(0.8f), Vec3(4000)),
-             {{low, kRoom.y, low}, {kPanel, 0, 0}, {0, 0, kPanel}});
+             {{low, kGlassRoom.y, low}, {kGlassPanel, 0, 0}, {0, 0, kGlassPanel}});
 }
 
 // What is seen bent, shifted or blurred behind the glass.

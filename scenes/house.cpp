@@ -41,7 +41,7 @@ Room room_at(int index) {
 // Tags of air: rooms by index, then doors and windows together.
 constexpr int kOpening = kRooms;
 
-std::vector<Block> building() {
+std::vector<Block> house_blocks() {
   const float width = kRoomsX * (kRoomX + kWall) - kWall, depth = kRoomsZ * (kRoomZ + kWall) - kWall;
   std::vector<Block> blocks{
       {Vec3(-kWall, -kSlab, -kWall), Vec3(width + kWall, kFloors * kStorey, depth + kWall), true, 0}};
@@ -68,13 +68,13 @@ std::vector<Block> building() {
   return blocks;
 }
 
-struct Palette {
+struct HousePalette {
   std::array<std::uint32_t, kUpholsteries> furniture{};
   std::array<std::uint32_t, 4> walls{};
   std::uint32_t ceiling, floor, trim, outside, polished_floor, polished_wood, mirror, panel, sky;
 };
 
-Palette make_palette(SampleScene& scene) {
+HousePalette make_palette(SampleScene& scene) {
   const auto add = [&](std::string name, const Vec3& color, float metallic, float roughness, float specular,
                        const Vec3& emission = Vec3(0)) {
     return add_material(scene, {.name = std::move(name),
@@ -84,7 +84,7 @@ Palette make_palette(SampleScene& scene) {
                                 .specular = specular,
                                 .emission = emission});
   };
-  Palette p{};
+  HousePalette p{};
   p.furniture = {
       add_diffuse(scene, "fabric", Vec3(0.24f, 0.31f, 0.42f)), add("wood", Vec3(0.33f, 0.19f, 0.10f), 0, 0.7f, 1),
       add_diffuse(scene, "ceramic", Vec3(0.70f, 0.36f, 0.22f)), add_diffuse(scene, "linen", Vec3(0.74f, 0.70f, 0.61f)),
@@ -115,8 +115,8 @@ bool has_reflector(int room, Reflecting kind, int reflectors) {
   return false;
 }
 
-void add_building(SampleScene& scene, const Palette& palette, int reflectors) {
-  const std::vector<Block> blocks = building();
+void add_building(SampleScene& scene, const HousePalette& palette, int reflectors) {
+  const std::vector<Block> blocks = house_blocks();
   for (SolidPatch& patch : boundary_patches(blocks)) {
     if (patch.air_tag == kOutside && patch.facing == Facing::kDown) continue;
     static constexpr std::array<const char*, 6> kNames{"east wall", "west wall",  "ceiling",
@@ -142,7 +142,7 @@ void add_building(SampleScene& scene, const Palette& palette, int reflectors) {
   }
 }
 
-void add_windows_and_lights(SampleScene& scene, const Palette& palette) {
+void add_windows_and_lights(SampleScene& scene, const HousePalette& palette) {
   SampleMesh x_pane{"window x", palette.sky}, z_pane{"window z", palette.sky};
   const Vec3 size(kDoorX1 - kDoorX0, kDoorY - kSillY, kDoorZ1 - kDoorZ0);
   const float reach = 0.01f;  // into the reveals
@@ -174,7 +174,7 @@ void add_windows_and_lights(SampleScene& scene, const Palette& palette) {
   }
 }
 
-void add_stairs(SampleScene& scene, const Palette& palette) {
+void add_stairs(SampleScene& scene, const HousePalette& palette) {
   const Vec3 c = Room{1, 1, 0}.corner();
   SampleMesh stairs{"stairs", palette.furniture[static_cast<std::size_t>(Upholstery::kWood)]};
   const float rise = kStorey / static_cast<float>(kRisers), reach = 0.01f;
@@ -202,7 +202,7 @@ void add_stairs(SampleScene& scene, const Palette& palette) {
   place(scene, std::move(parapet));
 }
 
-struct Placed {
+struct PlacedItem {
   int room = 0;
   Piece piece = Piece::kSofa;
   Vec3 position{0};
@@ -210,8 +210,8 @@ struct Placed {
 };
 
 // The four corners of each room hold a piece each, its back to the nearer z wall.
-std::vector<Placed> furniture_plan() {
-  std::vector<Placed> plan;
+std::vector<PlacedItem> furniture_plan() {
+  std::vector<PlacedItem> plan;
   for (int index = 0; index < kRooms; ++index) {
     const Room room = room_at(index);
     for (int corner = 0; corner < 4; ++corner) {
@@ -229,7 +229,7 @@ std::vector<Placed> furniture_plan() {
   return plan;
 }
 
-void add_furniture(SampleScene& scene, const Palette& palette, double detail, int reflectors) {
+void add_furniture(SampleScene& scene, const HousePalette& palette, double detail, int reflectors) {
   std::array<std::vector<std::uint32_t>, kPieces> meshes;
   for (std::size_t piece = 0; piece < kPieces; ++piece) {
     for (SampleMesh& mesh : make_piece(static_cast<Piece>(piece), detail)) {
@@ -245,7 +245,7 @@ void add_furniture(SampleScene& scene, const Palette& palette, double detail, in
   };
   const std::uint32_t plain = add_top("table top", palette.furniture[static_cast<std::size_t>(Upholstery::kWood)]);
   const std::uint32_t polished = add_top("polished table top", palette.polished_wood);
-  for (const Placed& placed : furniture_plan()) {
+  for (const PlacedItem& placed : furniture_plan()) {
     const std::string name = room_at(placed.room).name() + " " + piece_name(placed.piece);
     for (const std::uint32_t mesh : meshes[static_cast<std::size_t>(placed.piece)]) {
       place(scene, mesh, name, placed.position, placed.yaw_rad);
@@ -258,7 +258,7 @@ void add_furniture(SampleScene& scene, const Palette& palette, double detail, in
 }
 
 // On the -z wall, to the right of its opening.
-void add_mirrors(SampleScene& scene, const Palette& palette, int reflectors) {
+void add_mirrors(SampleScene& scene, const HousePalette& palette, int reflectors) {
   SampleMesh glass{"mirror", palette.mirror}, frame{"mirror frame", palette.trim};
   add_quad(glass, {Vec3(-0.455f, -0.655f, 0.01f), Vec3(0.91f, 0, 0), Vec3(0, 1.31f, 0)});
   add_frame(frame, {0.9f, 1.3f}, 0.05f, 0.03f, 0.01f);
@@ -271,7 +271,7 @@ void add_mirrors(SampleScene& scene, const Palette& palette, int reflectors) {
   }
 }
 
-void add_cameras(SampleScene& scene) {
+void add_house_cameras(SampleScene& scene) {
   const auto in = [](int x, int z, int floor, const Vec3& p) { return Room{x, z, floor}.corner() + p; };
   constexpr float kFov = 1.15f;
   scene.cameras = {
@@ -309,7 +309,7 @@ void add_lawn(SampleScene& scene, double area_m2) {
   place(scene, std::move(lawn));
 }
 
-SampleScene house_without_furniture(Palette& palette, const HouseOptions& options) {
+SampleScene house_without_furniture(HousePalette& palette, const HouseOptions& options) {
   SampleScene scene;
   scene.name = "House";
   palette = make_palette(scene);
@@ -326,7 +326,7 @@ std::uint64_t furniture_triangles(double detail) {
   for (std::size_t piece = 0; piece < kPieces; ++piece)
     by_piece[piece] = count_triangles(static_cast<Piece>(piece), detail);
   std::uint64_t count = 0;
-  for (const Placed& placed : furniture_plan()) {
+  for (const PlacedItem& placed : furniture_plan()) {
     count += by_piece[static_cast<std::size_t>(placed.piece)] + (placed.piece == Piece::kTable ? 2 : 0);
   }
   return count;
@@ -345,7 +345,7 @@ double detail_for(std::uint64_t wanted) {
 
 struct Sized {
   SampleScene scene;
-  Palette palette{};
+  HousePalette palette{};
   double detail = 0;
   std::uint64_t triangles = 0;
 };
@@ -381,7 +381,7 @@ Result<std::uint64_t> count_house(const HouseOptions& options) {
 Result<SampleScene> make_house(const HouseOptions& options) {
   ORIEL_TRY(Sized sized, size_house(options));
   add_furniture(sized.scene, sized.palette, sized.detail, options.reflectors);
-  add_cameras(sized.scene);
+  add_house_cameras(sized.scene);
   return std::move(sized.scene);
 }
 

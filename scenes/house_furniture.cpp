@@ -11,7 +11,7 @@ namespace {
 using enum Upholstery;
 using Kind = Primitive::Kind;
 
-constexpr float kSunk = 0.01f;  // m: how far legs reach into the floor
+constexpr float kLegsSunk = 0.01f;  // m: how far legs reach into the floor
 
 constexpr std::array<Primitive, 6> kSofaParts{{
     {Kind::kRoundedBox, kFabric, {0, 0.24f, 0.02f}, {1.30f, 0.26f, 0.70f}, 0.05f, 0.8f},
@@ -46,8 +46,8 @@ constexpr std::array<Primitive, 9> kShelfParts{{
     {Kind::kVase, kMetal, {-0.20f, 1.115f, 0}, {0.17f, 0.36f, 0.17f}, 0, 1.5f},
 }};
 constexpr std::array<Primitive, 3> kVasesParts{{
-    {Kind::kVase, kCeramic, {-0.15f, -kSunk, 0.05f}, {0.36f, 0.80f, 0.36f}, 0, 2.0f},
-    {Kind::kVase, kMetal, {0.25f, -kSunk, -0.10f}, {0.26f, 0.50f, 0.26f}, 0, 1.7f},
+    {Kind::kVase, kCeramic, {-0.15f, -kLegsSunk, 0.05f}, {0.36f, 0.80f, 0.36f}, 0, 2.0f},
+    {Kind::kVase, kMetal, {0.25f, -kLegsSunk, -0.10f}, {0.26f, 0.50f, 0.26f}, 0, 1.7f},
     {Kind::kBall, kCeramic, {0.20f, 0.115f, 0.28f}, {0.24f, 0.24f, 0.24f}, 0, 1.3f},
 }};
 constexpr std::array<Primitive, 5> kArmchairParts{{

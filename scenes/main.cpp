@@ -1,8 +1,8 @@
 // oriel-scenes: writes the sample scenes as .glb files, and CIE standard skies as .exr images.
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <map>
+#include <filesystem>
 
+#include "formats/cli/command.h"
 #include "formats/core/file.h"
 #include "formats/image/exr.h"
 #include "scenes/generators.h"
@@ -11,154 +11,146 @@
 
 namespace {
 
+using namespace oriel;
+
 struct Arguments {
   std::string scene;
-  std::string output;
-  std::string unit = "m";
-  bool no_cameras = false, no_surroundings = false;
-  oriel::sample::HouseOptions house;
-  oriel::sample::GalleryOptions gallery;
-  oriel::sample::RoomOptions room;
-  oriel::sample::SkyOptions sky;
-  std::string sky_output;
+  std::filesystem::path output;
+  double units_per_m = 1;
+  bool no_cameras = false;
+  sample::HouseOptions house;
+  sample::GalleryOptions gallery;
+  sample::RoomOptions dome{.closed = false};
+  sample::SkyOptions sky;
 };
 
-const std::map<std::string, double> kUnits_per_m{{"m", 1}, {"cm", 100}, {"mm", 1000}, {"km", 0.001}};
-
-int report(const oriel::Error& error) {
-  fmt::print(stderr, "oriel-scenes: error: {}\n", error.text());
-  return static_cast<int>(error.code);
+Result<sample::SampleScene> make_scene(const Arguments& arguments) {
+  if (arguments.scene == "classroom") return sample::make_classroom();
+  if (arguments.scene == "colonnade") return sample::make_colonnade();
+  if (arguments.scene == "cornell") return sample::make_cornell();
+  if (arguments.scene == "gallery") return sample::make_gallery(arguments.gallery);
+  if (arguments.scene == "glass") return sample::make_glass();
+  if (arguments.scene == "glass-sphere") return sample::make_glass_sphere();
+  if (arguments.scene == "office") return sample::make_office();
+  if (arguments.scene == "panels") return sample::make_panels();
+  if (arguments.scene == "room") return sample::make_room();
+  if (arguments.scene == "dome") return sample::make_room(arguments.dome);
+  if (arguments.scene == "studio") return sample::make_studio();
+  return sample::make_house(arguments.house);
 }
 
-oriel::Result<oriel::sample::SampleScene> make_scene(const Arguments& arguments) {
-  if (arguments.scene == "classroom") return oriel::sample::make_classroom();
-  if (arguments.scene == "colonnade") return oriel::sample::make_colonnade();
-  if (arguments.scene == "cornell") return oriel::sample::make_cornell();
-  if (arguments.scene == "gallery") return oriel::sample::make_gallery(arguments.gallery);
-  if (arguments.scene == "glass") return oriel::sample::make_glass();
-  if (arguments.scene == "glass-sphere") return oriel::sample::make_glass_sphere();
-  if (arguments.scene == "office") return oriel::sample::make_office();
-  if (arguments.scene == "panels") return oriel::sample::make_panels();
-  if (arguments.scene == "room") return oriel::sample::make_room();
-  if (arguments.scene == "dome")
-    return oriel::sample::make_room({false, arguments.room.door, !arguments.no_surroundings});
-  if (arguments.scene == "studio") return oriel::sample::make_studio();
-  return oriel::sample::make_house(arguments.house);
-}
-
-int run(const Arguments& arguments) {
-  auto scene = make_scene(arguments);
-  if (!scene) return report(scene.error());
-  oriel::sample::scale_scene(*scene, kUnits_per_m.at(arguments.unit));
+Status run(const Arguments& arguments) {
+  ORIEL_TRY(sample::SampleScene scene, make_scene(arguments));
+  sample::scale_scene(scene, arguments.units_per_m);
   if (arguments.no_cameras) {
-    scene->cameras.clear();
-    scene->paths.clear();
+    scene.cameras.clear();
+    scene.paths.clear();
   }
-  const auto bytes = oriel::sample::write_glb(*scene);
-  if (!bytes) return report(bytes.error());
-  if (const auto written = oriel::write_file_atomically(arguments.output, *bytes); !written)
-    return report(written.error());
-  fmt::print("{}: {} triangles, {} meshes, {} nodes, {} bytes\n", arguments.output,
-             oriel::sample::triangle_count(*scene), scene->meshes.size(), scene->nodes.size(), bytes->size());
-  return 0;
+  ORIEL_TRY(const auto bytes, sample::write_glb(scene));
+  ORIEL_TRY_VOID(write_file_atomically(arguments.output, bytes));
+  fmt::print("{}: {} triangles, {} meshes, {} nodes, {} bytes\n", arguments.output.string(),
+             sample::triangle_count(scene), scene.meshes.size(), scene.nodes.size(), bytes.size());
+  return {};
 }
 
-int run_sky(const Arguments& arguments) {
-  const auto image = oriel::sample::make_sky(arguments.sky);
-  if (!image) return report(image.error());
-  if (const auto written = oriel::write_exr(arguments.sky_output, *image); !written) return report(written.error());
-  fmt::print("{}: CIE sky of type {}, {} x {}\n", arguments.sky_output, arguments.sky.type, image->width,
-             image->height);
-  return 0;
+Status run_sky(const Arguments& arguments) {
+  ORIEL_TRY(const auto image, sample::make_sky(arguments.sky));
+  ORIEL_TRY_VOID(write_exr(arguments.output, image));
+  fmt::print("{}: CIE sky of type {}, {} x {}\n", arguments.output.string(), arguments.sky.type, image.width,
+             image.height);
+  return {};
 }
 
-CLI::App* add_sky(CLI::App& app, Arguments& arguments) {
-  oriel::sample::SkyOptions& sky = arguments.sky;
-  CLI::App* command = app.add_subcommand("sky", "Writes a CIE standard sky as a latitude-longitude .exr, cd/m²");
-  command->add_option("TYPE", sky.type, "1 to 15 of ISO 15469 (CIE S 011), or 16: the traditional overcast sky")
-      ->required();
-  command->add_option("-o,--output", arguments.sky_output, "The .exr file to write")->required();
-  command->add_option("--elevation", sky.elevation_deg, "Of the sun, degrees; its disk is not in the image")
-      ->capture_default_str();
-  command->add_option("--azimuth", sky.azimuth_deg, "Of the sun, degrees clockwise from north (-Z); east is +X")
-      ->capture_default_str();
-  auto* horizontal =
-      command->add_option("--horizontal", sky.horizontal_lux, "What the sky sheds on open level ground, lux")
-          ->capture_default_str();
-  command->add_option("--zenith", sky.zenith_cd_m2, "The zenith's luminance instead, cd/m²")->excludes(horizontal);
-  command->add_option("--ground", sky.ground, "Reflectance of the ground that fills the lower half")
-      ->capture_default_str();
-  command->add_option("--height", sky.height, "Rows of the image; it has twice as many columns")->capture_default_str();
-  return command;
+constexpr const char *kArguments = "Arguments", *kFile = "File", *kSky = "Sky";
+
+ToolCommand sky_command(Arguments& arguments) {
+  sample::SkyOptions& sky = arguments.sky;
+  return {.name = "sky",
+          .help = "Writes a CIE standard sky as a latitude-longitude .exr, cd/m²",
+          .footer = "",
+          .options = {{"TYPE", kArguments, "1 to 15 of ISO 15469 (CIE S 011), or 16: the traditional overcast sky",
+                       number(sky.type, 1, 16), Use::kRequired},
+                      {"-o,--output", kFile, "The .exr file to write", path(arguments.output, "FILE"), Use::kRequired},
+                      {"--elevation", kSky, "Of the sun, degrees; its disk is not in the image",
+                       number(sky.elevation_deg, 0, 90), Use::kEveryday},
+                      {"--azimuth", kSky, "Of the sun, degrees clockwise from north (-Z); east is +X",
+                       number(sky.azimuth_deg, -360, 360), Use::kEveryday},
+                      {"--horizontal", kSky, "What the sky sheds on open level ground, lux",
+                       number(sky.horizontal_lux, 0, 1e9), Use::kEveryday, "", "", "--zenith"},
+                      {"--zenith", kSky, "The zenith's luminance instead, cd/m²", number(sky.zenith_cd_m2, 0, 1e9),
+                       Use::kEveryday},
+                      {"--ground", kSky, "Reflectance of the ground that fills the lower half",
+                       number(sky.ground, 0, 1), Use::kEveryday},
+                      {"--height", kSky, "Rows of the image; it has twice as many columns",
+                       number(sky.height, 2, 16384), Use::kEveryday}},
+          .run = [&arguments] { return run_sky(arguments); }};
 }
 
-// An option of one scene only.
-struct OwnOption {
-  const CLI::Option* option;
-  std::string scene;
-};
+std::vector<Option> scene_options(Arguments& arguments) {
+  return {
+      {"SCENE", kArguments,
+       "Which scene: classroom, colonnade (a hall of 200 columns), cornell (the Cornell box), dome (a room in a "
+       "landscape under a sky dome), gallery (a museum of three rooms), glass (a room with glass bodies), glass-sphere "
+       "(the Cornell box with one), house (of two storeys), office, panels (and what else stands little proud of a "
+       "wall), room (closed, without a camera), studio (a room with curved metal)",
+       one_of(arguments.scene, {"classroom", "colonnade", "cornell", "dome", "gallery", "glass", "glass-sphere",
+                                "house", "office", "panels", "room", "studio"}),
+       Use::kRequired},
+      {"-o,--output", kFile, "The .glb file to write", path(arguments.output, "FILE"), Use::kRequired},
+      {"--unit", kFile, "Of the file's numbers, which glTF says are metres",
+       choice(arguments.units_per_m, {{"m", 1}, {"cm", 100}, {"mm", 1000}, {"km", 0.001}}), Use::kEveryday},
+      {"--no-cameras", kFile, "Leave cameras and walks out", flag(arguments.no_cameras), Use::kEveryday}};
+}
 
-std::vector<OwnOption> add_own_options(CLI::App& app, Arguments& arguments) {
-  return {{app.add_option("--triangles", arguments.house.triangles,
-                          "house: triangles to make, within 10 %, to see how tools scale")
-               ->capture_default_str(),
-           "house"},
-          {app.add_option("--reflectors", arguments.house.reflectors,
-                          "house: planar reflectors (mirrors, polished floors, table tops), 0 to 36")
-               ->capture_default_str(),
-           "house"},
-          {app.add_option("--lawn", arguments.house.lawn_m2, "house: square metres of lawn around it")
-               ->capture_default_str(),
-           "house"},
-          {app.add_option("--floor-roughness", arguments.gallery.floor_roughness,
-                          "gallery: of the polished tiles, whose lobe is as wide as its square")
-               ->check(CLI::Range(0.0f, 1.0f))
-               ->capture_default_str(),
-           "gallery"},
-          {app.add_flag("--door", arguments.room.door, "dome: a door beside the window, to walk out by"), "dome"},
-          {app.add_flag("--no-surroundings", arguments.no_surroundings, "dome: the room alone, without ground and sky"),
-           "dome"}};
+// The scene that each is for heads it in the help.
+std::vector<Option> own_options(Arguments& arguments) {
+  return {{"--triangles", "house", "Triangles to make, within 10 %, to see how tools scale",
+           number(arguments.house.triangles, 0, 1e9), Use::kEveryday},
+          {"--reflectors", "house", "Planar reflectors (mirrors, polished floors, table tops)",
+           number(arguments.house.reflectors, 0, sample::kMaxHouseReflectors), Use::kEveryday},
+          {"--lawn", "house", "Square metres of lawn around it", number(arguments.house.lawn_m2, 0, sample::kMostLawn),
+           Use::kEveryday},
+          {"--floor-roughness", "gallery", "Of the polished tiles, whose lobe is as wide as its square",
+           number(arguments.gallery.floor_roughness, 0, 1), Use::kEveryday},
+          {"--door", "dome", "A door beside the window, to walk out by", flag(arguments.dome.door), Use::kEveryday},
+          {"--no-surroundings", "dome", "The room alone, without ground and sky",
+           flag(arguments.dome.surroundings, false), Use::kEveryday}};
+}
+
+Status settle(const Given& given, const Arguments& arguments, const std::vector<Option>& own) {
+  for (const Option& option : own)
+    if (given.has(option.name) && arguments.scene != option.group)
+      return fail(ErrorCode::kUsage, arguments.scene, "found {}, expected it with {} only", option.name, option.group);
+  return {};
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments;
+  const std::vector<Option> own = own_options(arguments);
+  CommandLine line{ORIEL_VERSION,
+                   {.name = "oriel-scenes",
+                    .help = "Writes a sample scene as a binary glTF file, or a standard sky as an OpenEXR image.",
+                    .footer = "Exit codes: 0 done, 1 usage, 2 the file cannot be written, 4 failed at run time.",
+                    .options = scene_options(arguments),
+                    .settle = [&](const Given& given) { return settle(given, arguments, own); },
+                    .run = [&] { return run(arguments); },
+                    .commands = {sky_command(arguments)}}};
+  append(line.command.options, own);
+  const auto parsed = parse(line, argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) return *code;
+  const Status done = std::get<const ToolCommand*>(parsed)->run();
+  if (done) return 0;
+  fmt::print(stderr, "oriel-scenes: error: {}\n", done.error().text());
+  return static_cast<int>(done.error().code);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "Writes a sample scene as a binary glTF file, or a standard sky as an OpenEXR image.\n"
-      "Exit codes: 0 done, 1 usage, 2 the file cannot be written, 4 failed at run time.",
-      "oriel-scenes"};
-  Arguments arguments;
-  app.add_option("scene", arguments.scene,
-                 "Which scene: a classroom, a hall of 200 columns, the Cornell box, a room in a landscape under a sky "
-                 "dome, a museum of three rooms, a room with glass bodies, the Cornell box with a glass sphere, a "
-                 "two-storey house, an office, a wall of panels and other things that stand little proud, a closed "
-                 "room without "
-                 "a camera, a room with curved metal")
-      ->check(CLI::IsMember({"classroom", "colonnade", "cornell", "dome", "gallery", "glass", "glass-sphere", "house",
-                             "office", "panels", "room", "studio"}));
-  app.add_option("-o,--output", arguments.output, "The .glb file to write");
-  app.add_option("--unit", arguments.unit, "Of the file's numbers, which glTF says are metres: m, cm, mm, km")
-      ->check(CLI::IsMember(kUnits_per_m))
-      ->capture_default_str();
-  app.add_flag("--no-cameras", arguments.no_cameras, "Leave cameras and walks out");
-  const std::vector<OwnOption> own = add_own_options(app, arguments);
-  const auto* sky = add_sky(app, arguments);
   try {
-    app.parse(argc, argv);
-    // CLI11's required() would ask for these with the subcommand too.
-    for (const char* name : {"scene", "--output"})
-      if (!sky->parsed() && app.get_option(name)->count() == 0) throw CLI::RequiredError(name);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(oriel::ErrorCode::kUsage);
-  }
-  for (const OwnOption& option : own)
-    if (option.option->count() > 0 && !sky->parsed() && arguments.scene != option.scene)
-      return report({oriel::ErrorCode::kUsage,
-                     fmt::format("found {}, expected it with {} only", option.option->get_name(), option.scene),
-                     arguments.scene});
-  try {
-    return sky->parsed() ? run_sky(arguments) : run(arguments);
+    return run(argc, argv);
   } catch (const std::exception& error) {
-    return report({oriel::ErrorCode::kRuntime, error.what(), ""});
+    fmt::print(stderr, "oriel-scenes: error: {}\n", error.what());
+    return static_cast<int>(ErrorCode::kRuntime);
   }
 }

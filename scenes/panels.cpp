@@ -5,7 +5,7 @@
 namespace oriel::sample {
 namespace {
 
-constexpr Vec3 kRoom{8, 2.7f, 4};  // from the origin
+constexpr Vec3 kPanelRoom{8, 2.7f, 4};  // from the origin
 constexpr float kSection = 2,
                 kMargin = 0.1f;  // along the north wall (z = 0), and what each section leaves free at its ends
 constexpr float kSkirting = 0.1f, kCornice = 0.06f;
@@ -29,7 +29,7 @@ void place_around_light(SampleScene& scene, SampleMesh wall, SampleMesh light, c
 }
 
 void add_walls(SampleScene& scene, const Paints& paints) {
-  const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
+  const Vec3 x(kPanelRoom.x, 0, 0), y(0, kPanelRoom.y, 0), z(0, 0, kPanelRoom.z);
   const auto wall = [&](const char* name, std::uint32_t material, const Vec3& origin, const Vec3& u, const Vec3& v) {
     SampleMesh mesh{name, material};
     add_quad(mesh, {origin, u, v});
@@ -67,7 +67,7 @@ void add_sections(SampleScene& scene, const Paints& paints) {
 void add_things(SampleScene& scene, const Paints& paints) {
   // Along the north wall, from wall to wall.
   SampleMesh cornice{"cornice", paints.trim};
-  add_box(cornice, Vec3(0, kRoom.y - kCornice, 0), Vec3(kRoom.x, kRoom.y, kCornice), kFront | kBottom);
+  add_box(cornice, Vec3(0, kPanelRoom.y - kCornice, 0), Vec3(kPanelRoom.x, kPanelRoom.y, kCornice), kFront | kBottom);
   place(scene, std::move(cornice));
   SampleMesh carpet{"carpet", paints.carpet};
   add_box(carpet, Vec3(2.5f, 0, 1.2f), Vec3(5, 0.008f, 2.8f), kSides | kTop);
@@ -84,7 +84,7 @@ void add_things(SampleScene& scene, const Paints& paints) {
     place(scene, std::move(canvas), at, kPi / 2);
   }
   // Set back by 5 cm all around under the cupboard, which stands 1 cm off the east wall.
-  const float back = kRoom.x - 0.01f;
+  const float back = kPanelRoom.x - 0.01f;
   SampleMesh cupboard{"cupboard", paints.board}, plinth{"plinth", paints.trim};
   add_box(cupboard, Vec3(back - 0.5f, 0.08f, 1.3f), Vec3(back, 0.95f, 2.7f));
   add_box(plinth, Vec3(back - 0.45f, 0, 1.35f), Vec3(back - 0.05f, 0.08f, 2.65f), kSides);
@@ -92,7 +92,7 @@ void add_things(SampleScene& scene, const Paints& paints) {
   place(scene, std::move(plinth));
 }
 
-void add_cameras(SampleScene& scene) {
+void add_panel_cameras(SampleScene& scene) {
   constexpr float kFov = 0.8f;
   for (std::size_t i = 0; i < kProud_mm.size(); ++i) {
     const float middle = kSection * (static_cast<float>(i) + 0.5f);
@@ -120,7 +120,7 @@ SampleScene make_panels() {
   add_walls(scene, paints);
   add_sections(scene, paints);
   add_things(scene, paints);
-  add_cameras(scene);
+  add_panel_cameras(scene);
   return scene;
 }
 

@@ -6,8 +6,8 @@
 namespace oriel::sample {
 namespace {
 
-constexpr Vec3 kRoom{4, 2.7f, 5};  // from the origin
-constexpr float kPanel = 0.6f;     // side of the ceiling panel
+constexpr Vec3 kStudioRoom{4, 2.7f, 5};  // from the origin
+constexpr float kPanel = 0.6f;           // side of the ceiling panel
 
 std::uint32_t metal(SampleScene& scene, std::string name, const Vec3& color, float roughness) {
   return add_material(
@@ -17,25 +17,25 @@ std::uint32_t metal(SampleScene& scene, std::string name, const Vec3& color, flo
 void add_walls(SampleScene& scene) {
   const std::uint32_t white = add_diffuse(scene, "white", Vec3(0.75f));
   const std::uint32_t floor = add_diffuse(scene, "oak", Vec3(0.42f, 0.28f, 0.16f));
-  const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
+  const Vec3 x(kStudioRoom.x, 0, 0), y(0, kStudioRoom.y, 0), z(0, 0, kStudioRoom.z);
   place_quad(scene, "floor", floor, {Vec3(0), z, x});
   place_quad(scene, "north wall", white, {Vec3(0), x, y});
   place_quad(scene, "south wall", add_diffuse(scene, "yellow", Vec3(0.7f, 0.55f, 0.15f)), {z, y, x});
   place_quad(scene, "west wall", add_diffuse(scene, "red", Vec3(0.6f, 0.1f, 0.08f)), {Vec3(0), y, z});
   place_quad(scene, "east wall", add_diffuse(scene, "blue", Vec3(0.1f, 0.2f, 0.55f)), {x, z, y});
   // The ceiling around its panel: four strips, and the panel in the hole.
-  const Vec3 low = 0.5f * (kRoom - kPanel), high = low + kPanel;
+  const Vec3 low = 0.5f * (kStudioRoom - kPanel), high = low + kPanel;
   SampleMesh ceiling{"ceiling", white};
   const auto strip = [&](float x0, float z0, float x1, float z1) {
-    add_quad(ceiling, {Vec3(x0, kRoom.y, z0), Vec3(x1 - x0, 0, 0), Vec3(0, 0, z1 - z0)});
+    add_quad(ceiling, {Vec3(x0, kStudioRoom.y, z0), Vec3(x1 - x0, 0, 0), Vec3(0, 0, z1 - z0)});
   };
-  strip(0, 0, kRoom.x, low.z);
-  strip(0, high.z, kRoom.x, kRoom.z);
+  strip(0, 0, kStudioRoom.x, low.z);
+  strip(0, high.z, kStudioRoom.x, kStudioRoom.z);
   strip(0, low.z, low.x, high.z);
-  strip(high.x, low.z, kRoom.x, high.z);
+  strip(high.x, low.z, kStudioRoom.x, high.z);
   place(scene, std::move(ceiling));
   place_quad(scene, "panel", add_diffuse(scene, "panel", Vec3(0.8f), Vec3(2500)),
-             {Vec3(low.x, kRoom.y, low.z), Vec3(kPanel, 0, 0), Vec3(0, 0, kPanel)});
+             {Vec3(low.x, kStudioRoom.y, low.z), Vec3(kPanel, 0, 0), Vec3(0, 0, kPanel)});
 }
 
 void add_balls(SampleScene& scene) {
@@ -52,7 +52,7 @@ void add_balls(SampleScene& scene) {
 }
 
 // A standing lamp: foot and stem of satin steel, a glowing globe on top.
-void add_lamp(SampleScene& scene) {
+void add_studio_lamp(SampleScene& scene) {
   const Vec3 foot(3.2f, 0, 1);
   SampleMesh stand{"lamp stand", metal(scene, "satin steel", Vec3(0.7f), 0.15f)};
   const std::array<Vec2, 6> profile{
@@ -71,7 +71,7 @@ SampleScene make_studio() {
   scene.name = "Studio";
   add_walls(scene);
   add_balls(scene);
-  add_lamp(scene);
+  add_studio_lamp(scene);
   scene.cameras.push_back({"balls", Vec3(2.1f, 1.1f, 4.6f), Vec3(1.8f, 0.4f, 2), 0.7f});
   scene.cameras.push_back({"ball", Vec3(1.9f, 0.9f, 3.2f), Vec3(1.3f, 0.4f, 2), 0.75f});
   scene.cameras.push_back({"lamp", Vec3(2.2f, 1.2f, 2.4f), Vec3(3.2f, 0.8f, 1), 0.8f});

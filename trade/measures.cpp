@@ -2,23 +2,22 @@
 
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "formats/analysis/error_bands.h"
 #include "formats/analysis/texel_diff.h"
+#include "formats/core/json.h"
 #include "formats/image/display.h"
 
 namespace oriel::trade {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // Whatever `read` takes out of the text; what is missing or of another type is an Error instead of an exception.
 template <class Read>
 auto parsed(const std::string& text, const char* what, const Read& read) -> Result<decltype(read(Json()))> {
   try {
-    return read(Json::parse(text));
-  } catch (const Json::exception& error) {
+    ORIEL_TRY(const Json json, Json::parse(text, what));
+    return read(json);
+  } catch (const JsonError& error) {
     return invalid(what, "{}", error.what());
   }
 }
@@ -46,14 +45,18 @@ Json frame_json(const CameraError& f) {
   return json;
 }
 
+double number(const Json& of, const char* name) {
+  return of.at(name).get<double>();
+}
+
 CameraError frame_from(const Json& json) {
-  CameraError f{json.at("camera"),
-                json.at("sum"),
+  CameraError f{json.at("camera").get<std::string>(),
+                number(json, "sum"),
                 json.value("D", std::numeric_limits<double>::quiet_NaN()),
                 {},
-                json.at("noise"),
-                json.at("flip"),
-                json.at("mse")};
+                number(json, "noise"),
+                number(json, "flip"),
+                number(json, "mse")};
   if (json.contains("S")) f.specular = json["S"].get<double>();
   return f;
 }
@@ -62,15 +65,20 @@ Measures measures_from(const Json& json) {
   Measures m;
   if (json.contains("bake")) {
     const Json& bake = json["bake"];
-    m.bake = BakeCost{bake.at("seconds"), bake.at("cpu_seconds"), bake.at("bytes")};
+    m.bake = BakeCost{number(bake, "seconds"), number(bake, "cpu_seconds"), bake.at("bytes").get<std::uint64_t>()};
   }
   if (json.contains("frame_ms")) m.frame_ms = json["frame_ms"].get<double>();
   if (json.contains("live_s")) m.live_s = json["live_s"].get<double>();
   m.renderer = json.value("renderer", "");
   if (json.contains("texels")) {
     const Json& texels = json["texels"];
-    m.texels = TexelError{texels.at("count"), texels.at("relRMSE"), texels.at("nRMSE"),  texels.at("bias"),
-                          texels.at("noise"), texels.at("clouds"),  texels.at("visible")};
+    m.texels = TexelError{texels.at("count").get<std::uint64_t>(),
+                          number(texels, "relRMSE"),
+                          number(texels, "nRMSE"),
+                          number(texels, "bias"),
+                          number(texels, "noise"),
+                          number(texels, "clouds"),
+                          number(texels, "visible")};
   }
   if (json.contains("frames"))
     for (const Json& frame : json["frames"]) m.frames.push_back(frame_from(frame));
@@ -203,14 +211,13 @@ Result<CameraError> read_comparison(const std::string& camera, const std::string
   return parsed(json, "oriel-play --json", [&](const Json& all) {
     const Json& frame = all.at("regions").at("frame");
     CameraError e{camera,
-                  frame.at("sum").at("net"),
-                  frame.at("D").at("net"),
+                  number(frame.at("sum"), "net"),
+                  number(frame.at("D"), "net"),
                   {},
-                  frame.at("sum").at("noise"),
-                  frame.at("flip"),
-                  frame.at("mse")};
-    if (all["regions"].contains("reflectors"))
-      e.specular = all["regions"]["reflectors"].at("S").at("net").get<double>();
+                  number(frame.at("sum"), "noise"),
+                  number(frame, "flip"),
+                  number(frame, "mse")};
+    if (all["regions"].contains("reflectors")) e.specular = number(all["regions"]["reflectors"].at("S"), "net");
     return e;
   });
 }
@@ -218,7 +225,7 @@ Result<CameraError> read_comparison(const std::string& camera, const std::string
 Status read_frame_times(const std::string& json, Measures& measures) {
   ORIEL_TRY(measures.frame_ms, parsed(json, "oriel-play --stats", [](const Json& all) {
               double sum = 0;
-              for (const Json& frame : all.at("frames")) sum += frame.at("ms").get<double>();
+              for (const Json& frame : all.at("frames")) sum += number(frame, "ms");
               return sum / static_cast<double>(std::max<std::size_t>(all["frames"].size(), 1));
             }));
   ORIEL_TRY(const double live_s, parsed(json, "oriel-play --stats", [](const Json& all) {
@@ -234,14 +241,14 @@ Status read_frame_times(const std::string& json, Measures& measures) {
 
 Result<PreviewTimes> read_preview_times(const std::string& json) {
   return parsed(json, "oriel-preview --stats", [](const Json& all) {
-    return PreviewTimes{all.at("drawn_s"), all.at("cpu_s"), 1000 * all.at("last_pass").at("total_s").get<double>()};
+    return PreviewTimes{number(all, "drawn_s"), number(all, "cpu_s"), 1000 * number(all.at("last_pass"), "total_s")};
   });
 }
 
 Result<double> read_bake_seconds(const std::string& json) {
   return parsed(json, "oriel-bake --report", [](const Json& all) {
     double sum = 0;
-    for (const Json& stage : all.at("stages")) sum += stage.at("seconds").get<double>();
+    for (const Json& stage : all.at("stages")) sum += number(stage, "seconds");
     return sum;
   });
 }

@@ -1,12 +1,12 @@
 // What is measured of a configuration, and its JSON: kept by file, read back by the next run.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "formats/core/json.h"
 #include "formats/image/comparison.h"
 #include "formats/pack/pack.h"
 
@@ -85,7 +85,7 @@ Result<PreviewTimes> read_preview_times(const std::string& json);
 // Seconds of all stages from what `oriel-bake --report` wrote. Error kInvalid.
 Result<double> read_bake_seconds(const std::string& json);
 
-nlohmann::ordered_json as_json(const Measures& measures);
+Json as_json(const Measures& measures);
 // Error kInvalid.
 Result<Measures> measures_from_json(const std::string& text);
 

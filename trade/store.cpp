@@ -1,9 +1,8 @@
 #include "trade/store.h"
 
-#include <nlohmann/json.hpp>
-
 #include "formats/core/file.h"
 #include "formats/core/hash.h"
+#include "formats/core/json.h"
 
 namespace oriel::trade {
 namespace {
@@ -16,8 +15,7 @@ std::string hash_text(const std::string& text) {
 // Buffers and images that a .gltf keeps in files of their own. What is broken in it the bake will tell.
 std::vector<fs::path> named_files(const fs::path& scene, std::span<const std::byte> bytes) {
   if (scene.extension() != ".gltf") return {};
-  const char* text = reinterpret_cast<const char*>(bytes.data());
-  const auto json = nlohmann::json::parse(text, text + bytes.size(), nullptr, false);
+  const auto json = Json::parse(bytes).value_or(Json());
   std::vector<fs::path> files;
   for (const char* kind : {"buffers", "images"}) {
     if (!json.is_object() || !json.contains(kind) || !json[kind].is_array()) continue;
@@ -50,7 +48,7 @@ std::optional<Measures> Store::find(const std::string& key) const {
 
 Status Store::keep(const std::string& key, const Measures& measures) const {
   const std::string text = as_json(measures).dump(1) + "\n";
-  return write_file_atomically(file(key, ".json"), std::as_bytes(std::span(text)));
+  return write_text_atomically(file(key, ".json"), text);
 }
 
 Result<std::string> hash_of(const fs::path& scene, const std::vector<std::string>& options,

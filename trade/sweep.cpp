@@ -1,8 +1,7 @@
 #include "trade/sweep.h"
 
-#include <nlohmann/json.hpp>
-
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/image/comparison.h"
 #include "formats/pack/reader.h"
 #include "trade/frames.h"
@@ -34,7 +33,7 @@ Result<double> traced_seconds(const fs::path& log) {
   double seconds = -1;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    const auto line = nlohmann::json::parse(text.substr(at, end - at), nullptr, false);
+    const auto line = Json::parse(text.substr(at, end - at)).value_or(Json());
     if (line.is_object() && line.value("event", "") == "progress") seconds = line.value("seconds", seconds);
     at = end + 1;
   }

@@ -1,15 +1,13 @@
 #include "trade/table.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "formats/core/json.h"
 #include "trade/front.h"
 
 namespace oriel::trade {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Of all cameras together.
 Json summary_json(const Measures& m) {
@@ -101,7 +99,7 @@ std::string trade_json(const Trade& trade) {
                      {"unfinished", trade.left},
                      {"configurations", rows},
                      {"fronts", fronts}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1) + "\n";
 }
 
 std::string trade_csv(const Trade& trade) {

@@ -11,10 +11,10 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kManyCharts = 20000;          // beyond which one width is tried, not several
-constexpr double kSizeSteps = 6;                    // classes of size an octave
-constexpr double kFull = 0.95, kLargeShare = 1000;  // a ragged chart covers less of its box; a large one, of a page
-constexpr std::uint32_t kFillSteps = 4;             // classes of a mask's share of its box
+constexpr std::size_t kManyCharts = 20000;           // beyond which one width is tried, not several
+constexpr double kSizeSteps = 6;                     // classes of size an octave
+constexpr double kFull = 0.95, kLargeCharts = 1000;  // a ragged chart covers less of its box; a large one, of a page
+constexpr std::uint32_t kFillSteps = 4;              // classes of a mask's share of its box
 
 struct Span {
   std::uint32_t row, first, length;
@@ -110,7 +110,7 @@ class Page {
       // A large ragged chart has hollows to look for that others of its size had no use for.
       std::uint32_t from_below = 0;
       const bool ragged = shape.texels < kFull * shape.width * shape.height &&
-                          shape.texels * kLargeShare > static_cast<double>(width_) * height_;
+                          shape.texels * kLargeCharts > static_cast<double>(width_) * height_;
       std::uint32_t& row = ragged ? from_below : cursors_[shape.cursor];
       std::uint32_t x = kNone;
       for (; row < end && x == kNone; ++row) x = place_in_row(shape, row);

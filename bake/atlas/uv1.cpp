@@ -14,7 +14,7 @@ constexpr float kSlack = 1e-6f;
 constexpr double kThinTexels = 1e-3;  // what rounding of float coordinates may do between neighbours
 constexpr double kOverlapTexels2 = 1e-4;
 constexpr double kNegligibleShare = 1e-6;  // of a surface's area may lie in triangles without area on the page
-constexpr double kFlatRatio = 1e-9;        // twice the area over the longest side squared: a line
+constexpr double kLineRatio = 1e-9;        // twice the area over the longest side squared: a line
 
 std::string name_of(const Surface& surface) {
   if (surface.mesh_name.empty()) return fmt::format("'{}'", surface.name);
@@ -38,7 +38,7 @@ Status check_range(const Scene& scene, const Surface& surface) {
 bool has_area(const Triangle2& t) {
   const double longest = std::max(
       {glm::dot(t[1] - t[0], t[1] - t[0]), glm::dot(t[2] - t[1], t[2] - t[1]), glm::dot(t[0] - t[2], t[0] - t[2])});
-  return 2 * std::abs(signed_area(t)) > kFlatRatio * longest;
+  return 2 * std::abs(signed_area(t)) > kLineRatio * longest;
 }
 
 Triangle2 in_texels(const Atlas& atlas, std::uint32_t triangle) {

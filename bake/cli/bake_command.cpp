@@ -17,7 +17,7 @@ constexpr const char* kHelp =
     "with depth behind planar reflectors, BRDF kernels and Fresnel maps. Play it with oriel-play, look into it with "
     "oriel-inspect.";
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kBakeFooter = R"(Examples:
   oriel-bake house.glb -o house.oriel                      sensible defaults: 10 cm texels, 2 % error, reflections
   oriel-bake house.glb -o house.oriel --texel 5cm --error 1%         finer, with half the error
   oriel-bake house.gltf -o house.oriel --atlas uv1 --resolution 512  the artist's own lightmap coordinates
@@ -29,10 +29,6 @@ Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input
 or other bytes with verify, 6 the pack was written, but is less than what was asked for: the bake ended early, missed an --error
 or a --time that was named, left out a stage for want of time (0 with --accept-partial), or a part that failed its checks;
 130 stopped by the user before there was a first estimate, or by a second interrupt (nothing half-written is left).)";
-
-Status write_text(const std::filesystem::path& file, const std::string& text) {
-  return write_file_atomically(file, std::as_bytes(std::span(text)));
-}
 
 struct BakeArguments {
   BakeOptions bake = command_line_defaults();
@@ -147,7 +143,7 @@ Status begin_report(const BakeArguments& args) {
   stopped.exit_code = static_cast<int>(ErrorCode::kStopped);
   stopped.error = {ErrorCode::kStopped, "stopped; nothing was written", "bake"};
   report_hard_stop(args.report, outcome_json(stopped, args.bake.scene, args.bake.output));
-  return write_text(args.report, outcome_json({}, args.bake.scene, args.bake.output));
+  return write_text_atomically(args.report, outcome_json({}, args.bake.scene, args.bake.output));
 }
 
 Status make_pack(const BakeArguments& args, BakeSession& session, std::optional<BakeResult>& made) {
@@ -189,7 +185,7 @@ Status run_bake(const BakeArguments& args, BakeSession& session) {
   outcome.exit_code = status ? 0 : static_cast<int>(status.error().code);
   if (!status) outcome.error = status.error();
   if (made) outcome.warnings = made->warnings, outcome.result = &*made;
-  ORIEL_TRY_VOID(write_text(args.report, outcome_json(outcome, args.bake.scene, args.bake.output)));
+  ORIEL_TRY_VOID(write_text_atomically(args.report, outcome_json(outcome, args.bake.scene, args.bake.output)));
   return status;
 }
 
@@ -197,29 +193,19 @@ Status run_bake(const BakeArguments& args, BakeSession& session) {
 
 ToolCommand bake_command(BakeSession& session) {
   const auto args = std::make_shared<BakeArguments>();
-  ToolCommand out{.name = "oriel-bake", .help = kHelp, .footer = kFooter, .options = {}};
+  ToolCommand out{.name = "oriel-bake", .help = kHelp, .footer = kBakeFooter, .options = {}};
   out.options = {scene_argument(args->bake.scene),
                  {"-o,--output", "Run", "The pack to write. It appears whole or not at all",
                   path(args->bake.output, "PACK"), Use::kRequired}};
   append(out.options, bake_options(args->bake));
   append(
       out.options,
-      {{"--cache",
-        "Run",
+      {{"--cache", "Run",
         "Folder of finished units of work: a bake that was killed, or is repeated after a change, computes only what "
         "is not there. Default: .oriel-cache beside the pack",
-        path(args->cache, "DIR"),
-        Use::kEveryday,
-        {},
-        "cache.md"},
-       {"--no-cache",
-        "Run",
-        "Compute everything, and keep nothing but the pack",
-        flag(args->no_cache),
-        Use::kRare,
-        {},
-        {},
-        {"--cache"}},
+        path(args->cache, "DIR"), Use::kEveryday, "", "cache.md"},
+       {"--no-cache", "Run", "Compute everything, and keep nothing but the pack", flag(args->no_cache), Use::kRare, "",
+        "", "--cache"},
        {"--report", "Run",
         "Write how it ended, what was done, omitted and measured, and how long it took, as JSON "
         "(docs/report.schema.json). It is there on failure too",

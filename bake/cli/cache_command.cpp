@@ -7,7 +7,7 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kCacheFooter = R"(Examples:
   oriel-bake cache .oriel-cache --list
   oriel-bake cache .oriel-cache --prune 10GiB     what was used longest ago goes first)";
 
@@ -37,17 +37,11 @@ ToolCommand cache_command(BakeSession&) {
   ToolCommand out{
       .name = "cache",
       .help = "Tells what a cache holds, or makes it smaller",
-      .footer = kFooter,
+      .footer = kCacheFooter,
       .options = {{"DIR", "Arguments", "The folder of the cache", path(args->folder, "DIR"), Use::kRequired},
                   {"--list", "Run", "Print its units and bytes; so without --prune", flag(args->list), Use::kEveryday},
-                  {"--prune",
-                   "Run",
-                   "Remove units until no more than that is left",
-                   quantity(args->bytes, "SIZE", parse_bytes, bytes_text),
-                   Use::kEveryday,
-                   {},
-                   {},
-                   {"--list"}}}};
+                  {"--prune", "Run", "Remove units until no more than that is left",
+                   quantity(args->bytes, "SIZE", parse_bytes, bytes_text), Use::kEveryday, "", "", "--list"}}};
   out.settle = [args](const Given& given) -> Status {
     args->prunes = given.has("--prune");
     return {};

@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kLuxFooter = R"(Examples:
   oriel-bake lux office.glb --grid floor,50cm,85cm > workplane.csv     a working plane 85 cm above the node "floor"
   oriel-bake lux office.glb --points meters.csv --error 0.2%           x,y,z,nx,ny,nz in metres, a line a point
 
@@ -30,7 +30,7 @@ Status run_lux(const LuxArguments& args, BakeSession& session) {
   }
   ORIEL_TRY(const Measurement measured, measure(args.job, session.context));
   const std::string csv = lux_csv(measured.points, measured.results);
-  if (!args.output.empty()) return write_file_atomically(args.output, std::as_bytes(std::span(csv)));
+  if (!args.output.empty()) return write_text_atomically(args.output, csv);
   return print(csv);
 }
 
@@ -61,21 +61,15 @@ ToolCommand lux_command(BakeSession& session) {
   ToolCommand out{
       .name = "lux",
       .help = "Prints the illuminance at points as CSV; no lightmap, no pack",
-      .footer = kFooter,
+      .footer = kLuxFooter,
       .options = {
           scene_argument(job.scene),
           {"--points", "Meters",
            "CSV of x,y,z,nx,ny,nz: position in metres and the direction that the meter faces, in the scene's own "
            "space; one header line may come first",
            path(job.points, "FILE"), Use::kEveryday},
-          {"--grid",
-           "Meters",
-           "A level grid over a node's upward faces: its name, the spacing, the height above it",
-           grid(job.grid),
-           Use::kEveryday,
-           {},
-           {},
-           {"--points"}},
+          {"--grid", "Meters", "A level grid over a node's upward faces: its name, the spacing, the height above it",
+           grid(job.grid), Use::kEveryday, "", "", "--points"},
           {"-o,--output", "Meters", "File for the table instead of stdout", path(args->output, "FILE"), Use::kEveryday},
           {"--error", "Meters",
            "Standard error asked for, of luminance, relative to the point's illuminance plus 1 % of the mean "

@@ -3,11 +3,11 @@
 
 #include <cstdio>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "bake/cli/commands.h"
 #include "bake/run/version.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
@@ -34,12 +34,12 @@ Status run(const ToolCommand& command, const BakeSession& session) {
 int print_error(const Error& error, BakeSession& session) {
   session.printer->finish();
   if (session.style() == ProgressPrinter::Style::kJson) {
-    const nlohmann::ordered_json json = {{"event", "error"},
-                                         {"tool", "oriel-bake"},
-                                         {"code", static_cast<int>(error.code)},
-                                         {"message", error.message},
-                                         {"where", error.where}};
-    std::fprintf(stderr, "%s\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    const Json json = {{"event", "error"},
+                       {"tool", "oriel-bake"},
+                       {"code", static_cast<int>(error.code)},
+                       {"message", error.message},
+                       {"where", error.where}};
+    std::fprintf(stderr, "%s\n", json.dump().c_str());
   } else {
     std::fprintf(stderr, "oriel-bake: %s\n", text_of_error(error).c_str());
   }

@@ -55,31 +55,17 @@ std::vector<Option> plot_options(MaterialPlotArguments& args) {
   return {
       {"--list", kPlot, "Prints the materials that --plot knows, with their Fresnel reflectance", flag(args.list),
        Use::kEveryday},
-      {"--plot",
-       kPlot,
+      {"--plot", kPlot,
        "Writes K and R of a material (a name of --list, or a metal's symbol) as CSV, and pictures of them where "
        "gnuplot "
        "is installed",
-       text(args.plot, "NAME"),
-       Use::kEveryday,
-       {},
-       {},
-       {},
-       "--output"},
-      {"-o,--output",
-       kPlot,
-       "Folder of --plot's files; made where it is missing",
-       path(args.folder, "DIR"),
-       Use::kEveryday,
-       {},
-       {},
-       {},
-       "--plot"},
+       text(args.plot, "NAME"), Use::kEveryday, "", "", "", "--output"},
+      {"-o,--output", kPlot, "Folder of --plot's files; made where it is missing", path(args.folder, "DIR"),
+       Use::kEveryday, "", "", "", "--plot"},
       {"--alpha", kPlot, "Width of the lobe: the square of glTF's roughness", number(args.alpha, 1e-4, 1),
        Use::kEveryday},
       {"--model", kPlot, "Distribution of K's facets",
-       choice(args.model, Names<KernelModel>{{"ggx", KernelModel::kGgx}, {"beckmann", KernelModel::kBeckmann}}),
-       Use::kEveryday},
+       choice(args.model, {{"ggx", KernelModel::kGgx}, {"beckmann", KernelModel::kBeckmann}}), Use::kEveryday},
       {"--no-pictures", kPlot, "CSV only: gnuplot is not asked for", flag(args.pictures, false), Use::kEveryday},
   };
 }
@@ -100,8 +86,7 @@ Status run_material_plot(const MaterialPlotArguments& args) {
   std::filesystem::create_directories(args.folder, ec);
   if (ec) return fail(ErrorCode::kIo, args.folder.string(), "cannot be made: {}", ec.message());
   const std::vector<PlotFile> files = plot_files(*material, args.model);
-  for (const PlotFile& file : files)
-    ORIEL_TRY_VOID(write_file_atomically(args.folder / file.name, std::as_bytes(std::span(file.text))));
+  for (const PlotFile& file : files) ORIEL_TRY_VOID(write_text_atomically(args.folder / file.name, file.text));
   return args.pictures ? draw(args.folder, files.back().name) : Status();
 }
 

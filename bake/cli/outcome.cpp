@@ -3,15 +3,13 @@
 #include <unistd.h>
 
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "bake/plan/doctor.h"
 #include "bake/run/version.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;  // grows when a field changes its meaning or goes; new fields leave it as it is
 
@@ -107,9 +105,9 @@ std::string outcome_json(const Outcome& o, const std::filesystem::path& scene, c
     missing.insert(missing.end(), o.result->left_out.begin(), o.result->left_out.end());
     json["findings"] = records({o.result->findings.begin(), o.result->findings.end()}, "light", "error", paths);
     json["shortfalls"] = records(missing, "shortfall", "error", paths);
-    json.update(Json::parse(report_json(*o.result)));
+    json.update(Json::parse(report_json(*o.result)).value());
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(2) + "\n";
 }
 
 }  // namespace oriel

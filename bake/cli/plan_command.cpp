@@ -9,7 +9,7 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kPlanFooter = R"(Examples:
   oriel-bake plan house.glb                        what a bake would do, what it would cost, what looks wrong
   oriel-bake plan house.glb --no-pilot --strict    the scene's check for a pipeline: exit code 5 with any finding
   oriel-bake plan house.glb --error 1% --time 5min --json plan.json    can that be had together?
@@ -55,7 +55,7 @@ Status run_plan(const PlanArguments& args, BakeSession& session) {
   ORIEL_TRY_VOID(print(to_stdout ? plan_as_json(plan) : plan_text(plan)));
   if (!args.json.empty() && !to_stdout) {
     const std::string json = plan_as_json(plan);
-    ORIEL_TRY_VOID(write_file_atomically(args.json, std::as_bytes(std::span(json))));
+    ORIEL_TRY_VOID(write_text_atomically(args.json, json));
   }
   const auto taken = std::count_if(plan.findings.begin(), plan.findings.end(),
                                    [&](const Finding& f) { return is_allowed(f, plan.allowed); });
@@ -73,7 +73,7 @@ ToolCommand plan_command(BakeSession& session) {
   ToolCommand out{
       .name = "plan",
       .help = "Tells what a bake would model, leave out and why, what it would cost, and what is wrong with the scene",
-      .footer = kFooter,
+      .footer = kPlanFooter,
       .options = {
           scene_argument(args->bake.scene),
           {"--json", "Run", "Write the plan as JSON (docs/plan.md); - is stdout, instead of the text",
@@ -86,14 +86,10 @@ ToolCommand plan_command(BakeSession& session) {
            "Findings that are known and taken: kinds, or kinds with objects, as \"albedo,one-sided "
            "wall:Curtain*\", or @FILE with one a line. May be repeated",
            allowed(args->allowed), Use::kEveryday},
-          {"--cache",
-           "Run",
+          {"--cache", "Run",
            "Folder of finished units of work, for plans and bakes. Default: .oriel-cache in this folder, if there "
            "is one",
-           path(args->cache, "DIR"),
-           Use::kRare,
-           {},
-           "cache.md"}}};
+           path(args->cache, "DIR"), Use::kRare, "", "cache.md"}}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };

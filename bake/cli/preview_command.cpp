@@ -9,7 +9,7 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kPreviewFooter =
     R"(Starts oriel-preview, which lies beside this program, with whatever follows: oriel-preview --help tells of it.)";
 
 }  // namespace
@@ -30,7 +30,7 @@ ToolCommand preview_command(BakeSession&) {
   const auto scene = std::make_shared<std::filesystem::path>();
   ToolCommand out{.name = "preview",
                   .help = "Opens a window on the scene at once, before any bake",
-                  .footer = kFooter,
+                  .footer = kPreviewFooter,
                   .options = {scene_argument(*scene)}};
   out.run = [scene] { return start_preview({scene->string()}); };
   return out;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
+
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
@@ -103,15 +104,15 @@ void ProgressPrinter::draw(const Progress& progress, double seconds) {
   double left = -1;
   if (left_s_ >= 0) left = countdown_.tell(std::max(left_s_ - (whole - foretold_s_), 0.0), whole);
   if (style_ == Style::kJson) {
-    const nlohmann::ordered_json json = {{"event", "progress"},
-                                         {"tool", kTool},
-                                         {"stage", std::string(progress.stage)},
-                                         {"fraction", progress.fraction},
-                                         {"seconds", seconds},
-                                         {"rays", progress.rays},
-                                         {"rays_per_s", rays_per_s},
-                                         {"seconds_since_start", whole},
-                                         {"seconds_left", left >= 0 ? nlohmann::ordered_json(left) : nullptr}};
+    const Json json = {{"event", "progress"},
+                       {"tool", kTool},
+                       {"stage", std::string(progress.stage)},
+                       {"fraction", progress.fraction},
+                       {"seconds", seconds},
+                       {"rays", progress.rays},
+                       {"rays_per_s", rays_per_s},
+                       {"seconds_since_start", whole},
+                       {"seconds_left", left >= 0 ? Json(left) : nullptr}};
     std::fprintf(stderr, "%s\n", json.dump().c_str());
     return;
   }
@@ -132,8 +133,8 @@ void ProgressPrinter::draw(const Progress& progress, double seconds) {
 
 void ProgressPrinter::line(const char* event, const std::string& message) {
   if (style_ == Style::kJson) {
-    const nlohmann::ordered_json json = {{"event", event}, {"tool", kTool}, {"message", message}};
-    std::fprintf(stderr, "%s\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    const Json json = {{"event", event}, {"tool", kTool}, {"message", message}};
+    std::fprintf(stderr, "%s\n", json.dump().c_str());
     return;
   }
   if (open_line_) std::fprintf(stderr, "\r\x1b[K");

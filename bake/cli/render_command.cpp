@@ -12,7 +12,7 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kRenderFooter = R"(Examples:
   oriel-bake render house.glb --camera living -o living.exr                  256 paths a pixel
   oriel-bake render house.glb --camera walk@3.5 --error 1% -o walk.exr       as many as 1 % needs
   oriel-play house.oriel --offscreen --camera living --compare living.exr    what the player makes of it
@@ -85,14 +85,8 @@ std::vector<Option> frame_options(RenderArguments& args) {
        "Instead of --samples: so many that the sum's standard error is at most this, relative, root mean square over "
        "the frame, dark pixels by 1 % of the mean",
        quantity(args.frame.error, "SHARE", parse_fraction, share_text), Use::kEveryday},
-      {"--samples",
-       kFrame,
-       "Paths a pixel for each component, best a power of two",
-       number(args.frame.samples, 1, kMostSamples),
-       Use::kEveryday,
-       {},
-       {},
-       {"--error"}},
+      {"--samples", kFrame, "Paths a pixel for each component, best a power of two",
+       number(args.frame.samples, 1, kMostSamples), Use::kEveryday, "", "", "--error"},
       {"--no-antialias", kFrame,
        "Every ray through its pixel's centre, as a rasteriser without supersampling sees the scene",
        flag(args.frame.antialias, false)},
@@ -106,7 +100,7 @@ ToolCommand render_command(BakeSession& session) {
   ToolCommand out{
       .name = "render",
       .help = "Path-traces one frame by component, with its noise: the reference that frames are compared with",
-      .footer = kFooter,
+      .footer = kRenderFooter,
       .options = frame_options(*args)};
   append(out.options, mover_options(args->import));
   append(out.options, light_options(args->import));

@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kReplayFooter = R"(Examples:
   oriel-bake replay house.glb --texel 5cm --at texel:0,120,44               its first path
   oriel-bake replay house.glb --camera living --at pixel:640,360 --count 16
 
@@ -64,7 +64,7 @@ ToolCommand replay_command(BakeSession& session) {
   ToolCommand out{
       .name = "replay",
       .help = "Runs the paths of one texel or pixel alone, with its random numbers, and prints them",
-      .footer = kFooter,
+      .footer = kReplayFooter,
       .options = {scene_argument(args->bake.scene),
                   {"--at", "Replay", "The texel of a page, or the pixel of a frame", place(*args), Use::kRequired},
                   {"--first", "Replay", "The first path's number", number(args->paths.first, 0, kMost), Use::kEveryday},

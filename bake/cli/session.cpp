@@ -83,14 +83,9 @@ std::vector<Option> run_options(BakeSession& session) {
       {"--seed", kRun, "Of every random number: another seed gives another, equally good, estimate",
        number(session.seed, 0, 18446744073709551615.0)},
       {"--quiet", kRun, "No progress; warnings and errors only", flag(session.quiet), Use::kEveryday},
-      {"--json-log",
-       kRun,
+      {"--json-log", kRun,
        "Every line on stderr is a JSON object: progress, notes, warnings and errors, those of usage and of signals too",
-       flag(session.json_log),
-       Use::kRare,
-       {},
-       {},
-       {"--quiet"}},
+       flag(session.json_log), Use::kRare, "", "", "--quiet"},
   };
 }
 

@@ -7,7 +7,7 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kFooter = R"(Example:
+constexpr const char* kSubmitFooter = R"(Example:
   oriel-bake submit --slurm -N 8 house.glb -o house.oriel --cache /shared/cache --reproducible --error 1%
 
 Takes the options of the bake. A worker that is cancelled, requeued or dead is replaced by the others, in the end by the
@@ -69,7 +69,7 @@ ToolCommand submit_command(BakeSession& session) {
   ToolCommand out{
       .name = "submit",
       .help = "Gives a cluster's scheduler a bake: an array of workers, and a job that packs after them",
-      .footer = kFooter,
+      .footer = kSubmitFooter,
       .options = {{"SCENE", "Arguments", "The scene, at a path that all machines know", path(args->scene, "FILE"),
                    Use::kRequired},
                   {"-o,--output", "Run", "The pack to write", path(args->output, "PACK"), Use::kRequired},

@@ -9,16 +9,12 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kTradeFooter = R"(Examples:
   oriel-bake trade gallery.glb -o gallery-trade --quick            minutes
   oriel-bake trade gallery.glb -o gallery-trade                    all settings of all knobs
   oriel-bake trade gallery.glb -o gallery-trade --time 30min       as much as fits; the same command goes on
 
 Writes trade.html to look at, trade.csv and trade.json. What is finished stays in DIR/runs and is not run again.)";
-
-Status write_text(const std::filesystem::path& file, const std::string& text) {
-  return write_file_atomically(file, std::as_bytes(std::span(text)));
-}
 
 // Sweeps, and writes trade.json, trade.csv and trade.html; also what is known where the user stops it.
 Status run_trade(const trade::TradeOptions& options, BakeSession& session) {
@@ -27,9 +23,9 @@ Status run_trade(const trade::TradeOptions& options, BakeSession& session) {
   const auto& folder = options.output;
   ORIEL_TRY(const trade::Trade found, trade::sweep(options, session.context, note));
   for (const std::string& skipped : found.plan.skipped) note("not varied: " + skipped);
-  ORIEL_TRY_VOID(write_text(folder / "trade.json", trade::trade_json(found)));
-  ORIEL_TRY_VOID(write_text(folder / "trade.csv", trade::trade_csv(found)));
-  ORIEL_TRY_VOID(write_text(folder / "trade.html", trade::trade_html(found)));
+  ORIEL_TRY_VOID(write_text_atomically(folder / "trade.json", trade::trade_json(found)));
+  ORIEL_TRY_VOID(write_text_atomically(folder / "trade.csv", trade::trade_csv(found)));
+  ORIEL_TRY_VOID(write_text_atomically(folder / "trade.html", trade::trade_html(found)));
   note(fmt::format("wrote {}: {} configurations; {} parts run, {} found finished, {} left",
                    (folder / "trade.html").string(), found.rows.size(), found.started, found.reused, found.left));
   if (session.context.stopped()) return fail(ErrorCode::kStopped, folder.string(), "stopped; the same command goes on");
@@ -74,7 +70,7 @@ ToolCommand trade_command(BakeSession& session) {
   ToolCommand out{
       .name = "trade",
       .help = "Measures on the scene what methods and knobs cost and err, and shows which are best for their cost",
-      .footer = kFooter,
+      .footer = kTradeFooter,
       .options = sweep_options(args->options)};
   std::vector<Option> forwarded = light_options(args->import);
   append(forwarded, mover_options(args->import));

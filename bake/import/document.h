@@ -166,11 +166,11 @@ struct Document {
 Result<Document> parse_document(JsonDocument& json);
 
 // extras.oriel_metal of a material or a node; a name that is unknown is an error of the document.
-Metal parse_metal(const Json& value);
+Metal parse_metal(const JsonAt& value);
 
 // Its parts, in the order in which they need each other.
-void parse_materials(const Json& root, Document& document);
-void parse_meshes(const Json& root, std::size_t materials, Document& document);
-void parse_nodes(const Json& root, Document& document);
+void parse_materials(const JsonAt& root, Document& document);
+void parse_meshes(const JsonAt& root, std::size_t materials, Document& document);
+void parse_nodes(const JsonAt& root, Document& document);
 
 }  // namespace oriel::gltf

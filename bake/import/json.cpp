@@ -1,12 +1,12 @@
 #include "bake/import/json.h"
 
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace oriel::gltf {
 namespace {
 
-// Brackets outside of strings. nlohmann's parser copes with any depth, but what walks its values later recurses.
+// Brackets outside of strings: what walks the values recurses.
 bool nested_deeper_than(std::string_view text, int limit) {
   int depth = 0;
   bool in_string = false;
@@ -26,26 +26,15 @@ bool nested_deeper_than(std::string_view text, int limit) {
   return false;
 }
 
-// What nlohmann says, without its own code in brackets.
-std::string reason(const nlohmann::json::exception& e) {
-  const std::string_view text = e.what();
-  const std::size_t bracket = text.find("] ");
-  return std::string(bracket == std::string_view::npos ? text : text.substr(bracket + 2));
-}
-
-std::string shown(const nlohmann::json& value) {
+std::string shown(const oriel::Json& value) {
   if (value.is_object()) return value.empty() ? "{}" : "an object";
   if (value.is_array()) return fmt::format("an array of {}", value.size());
-  std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  std::string text = value.dump_ascii();
   if (text.size() > 60) text = text.substr(0, 57) + "...";
   return text;
 }
 
 }  // namespace
-
-void JsonDocument::Delete::operator()(nlohmann::json* value) const {
-  delete value;
-}
 
 Result<JsonDocument> JsonDocument::parse(std::span<const std::byte> bytes, const std::string& file) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -55,21 +44,13 @@ Result<JsonDocument> JsonDocument::parse(std::span<const std::byte> bytes, const
     return invalid(file, "found JSON nested deeper than {} levels, expected less", kMaxJsonDepth);
   JsonDocument document;
   document.file_ = file;
-  try {
-    document.value_.reset(new nlohmann::json(nlohmann::json::parse(text.begin(), text.end())));
-  } catch (const nlohmann::json::parse_error& e) {
-    return invalid(file, "found invalid JSON at byte {} of {}: {}", e.byte, text.size(), reason(e));
-  } catch (const nlohmann::json::exception& e) {
-    return invalid(file, "found invalid JSON: {}", reason(e));
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::kRuntime, file, "not enough memory for {} bytes of JSON", text.size());
-  }
-  if (!document.value_->is_object()) return invalid(file, "found {}, expected a JSON object", shown(*document.value_));
+  ORIEL_TRY(document.value_, oriel::Json::parse(text, file));
+  if (!document.value_.is_object()) return invalid(file, "found {}, expected a JSON object", shown(document.value_));
   return document;
 }
 
-Json JsonDocument::root() {
-  return Json(this, value_.get(), "");
+JsonAt JsonDocument::root() {
+  return JsonAt(this, &value_, "");
 }
 
 Status JsonDocument::status() const {
@@ -82,57 +63,57 @@ void JsonDocument::add_error(const std::string& path, std::string message) {
     first_error_ = Error{ErrorCode::kInvalid, std::move(message), path.empty() ? file_ : file_ + ": " + path};
 }
 
-Json Json::operator[](const char* key) const {
+JsonAt JsonAt::operator[](const char* key) const {
   std::string path = path_.empty() ? std::string(key) : path_ + "." + key;
-  if (!value_) return Json(document_, nullptr, std::move(path));
+  if (!value_) return JsonAt(document_, nullptr, std::move(path));
   if (!value_->is_object()) {
     expected("an object");
-    return Json(document_, nullptr, std::move(path));
+    return JsonAt(document_, nullptr, std::move(path));
   }
-  const auto found = value_->find(key);
-  return Json(document_, found == value_->end() ? nullptr : &*found, std::move(path));
+  return JsonAt(document_, value_->find(key), std::move(path));
 }
 
-Json Json::need(const char* key) const {
-  Json member = (*this)[key];
+JsonAt JsonAt::need(const char* key) const {
+  JsonAt member = (*this)[key];
   if (value_ && value_->is_object() && !member.present()) error(fmt::format("found no \"{}\", expected one", key));
   return member;
 }
 
-Json Json::extension(const char* name) const {
+JsonAt JsonAt::extension(const char* name) const {
   return (*this)["extensions"][name];
 }
 
-Json Json::extra(const char* name) const {
-  const Json extras = (*this)["extras"];
-  if (extras.present() && !extras.value_->is_object()) return Json(document_, nullptr, extras.path_);
+JsonAt JsonAt::extra(const char* name) const {
+  const JsonAt extras = (*this)["extras"];
+  if (extras.present() && !extras.value_->is_object()) return JsonAt(document_, nullptr, extras.path_);
   return extras[name];
 }
 
-std::vector<std::string> Json::keys() const {
+std::vector<std::string> JsonAt::keys() const {
   std::vector<std::string> names;
   if (!value_) return names;
   if (!value_->is_object()) {
     expected("an object");
     return names;
   }
-  for (const auto& item : value_->items()) names.push_back(item.key());
+  for (const auto& item : value_->items()) names.push_back(item.name);
+  std::ranges::sort(names);
   return names;
 }
 
-std::size_t Json::size() const {
+std::size_t JsonAt::size() const {
   if (!value_) return 0;
   if (value_->is_array()) return value_->size();
   expected("an array");
   return 0;
 }
 
-Json Json::at(std::size_t i) const {
+JsonAt JsonAt::at(std::size_t i) const {
   const bool inside = value_ && value_->is_array() && i < value_->size();
-  return Json(document_, inside ? &(*value_)[i] : nullptr, fmt::format("{}[{}]", path_, i));
+  return JsonAt(document_, inside ? &(*value_)[i] : nullptr, fmt::format("{}[{}]", path_, i));
 }
 
-double Json::number(double fallback, double lowest, double highest) const {
+double JsonAt::number(double fallback, double lowest, double highest) const {
   if (!value_) return fallback;
   const double value = value_->is_number() ? value_->get<double>() : std::nan("");
   if (value >= lowest && value <= highest) return value;
@@ -142,7 +123,7 @@ double Json::number(double fallback, double lowest, double highest) const {
   return fallback;
 }
 
-std::uint64_t Json::integer(std::uint64_t fallback, std::uint64_t highest) const {
+std::uint64_t JsonAt::integer(std::uint64_t fallback, std::uint64_t highest) const {
   if (!value_) return fallback;
   if (value_->is_number_unsigned()) {
     const auto value = value_->get<std::uint64_t>();
@@ -156,7 +137,7 @@ std::uint64_t Json::integer(std::uint64_t fallback, std::uint64_t highest) const
   return fallback;
 }
 
-int Json::index(std::size_t count) const {
+int JsonAt::index(std::size_t count) const {
   if (!value_) return -1;
   if (value_->is_number_unsigned()) {
     const auto value = value_->get<std::uint64_t>();
@@ -166,35 +147,35 @@ int Json::index(std::size_t count) const {
   return -1;
 }
 
-bool Json::boolean(bool fallback) const {
+bool JsonAt::boolean(bool fallback) const {
   if (!value_) return fallback;
   if (value_->is_boolean()) return value_->get<bool>();
   expected("true or false");
   return fallback;
 }
 
-std::string Json::text(std::string fallback) const {
+std::string JsonAt::text(std::string fallback) const {
   if (!value_) return fallback;
   if (value_->is_string()) return value_->get<std::string>();
   expected("a string");
   return fallback;
 }
 
-std::string Json::name() const {
+std::string JsonAt::name() const {
   std::string printable = text();
   for (char& c : printable)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
   return printable;
 }
 
-void Json::numbers(std::span<double> values) const {
+void JsonAt::numbers(std::span<double> values) const {
   if (!value_) return;
   if (!value_->is_array() || value_->size() != values.size())
     return expected(fmt::format("an array of {} numbers", values.size()));
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = at(i).number(values[i]);
 }
 
-void Json::expected(std::string_view what) const {
+void JsonAt::expected(std::string_view what) const {
   error(fmt::format("found {}, expected {}", value_ ? shown(*value_) : "nothing", what));
 }
 

@@ -2,8 +2,6 @@
 // reading goes on with defaults until someone asks.
 #pragma once
 
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "formats/core/bytes.h"
+#include "formats/core/json.h"
 #include "formats/core/result.h"
 
 namespace oriel::gltf {
@@ -18,53 +17,50 @@ namespace oriel::gltf {
 // Deeper documents are refused before a recursive parser sees them. glTF itself needs about ten levels.
 inline constexpr int kMaxJsonDepth = 64;
 
-class Json;
+class JsonAt;
 
-// A parsed document. The Json values it hands out point into it.
+// A parsed document. The JsonAt values it hands out point into it.
 class JsonDocument {
  public:
   // Error kInvalid: a byte order mark, wrong syntax, not UTF-8, a number out of range, or nested deeper than
   // kMaxJsonDepth. `file` names the document in errors.
   static Result<JsonDocument> parse(std::span<const std::byte> text, const std::string& file);
 
-  Json root();
+  JsonAt root();
   const std::string& file() const { return file_; }
   // What was wrong first, if anything was.
   Status status() const;
   void add_error(const std::string& path, std::string message);
 
  private:
-  struct Delete {
-    void operator()(nlohmann::json* value) const;
-  };
-  std::unique_ptr<nlohmann::json, Delete> value_;
+  oriel::Json value_;
   std::string file_;
   std::optional<Error> first_error_;
 };
 
 // A value at a path, or the absence of one. Readers return `fallback` where the value is absent, and also where it has
 // the wrong type or range, which is recorded in the document.
-class Json {
+class JsonAt {
  public:
-  Json(JsonDocument* document, const nlohmann::json* value, std::string path)
+  JsonAt(JsonDocument* document, const oriel::Json* value, std::string path)
       : document_(document), value_(value), path_(std::move(path)) {}
 
   bool present() const { return value_ != nullptr; }
   const std::string& path() const { return path_; }
 
   // A member of an object; it is an error if this is something else than an object.
-  Json operator[](const char* key) const;
+  JsonAt operator[](const char* key) const;
   // The same, and it is an error if it is absent.
-  Json need(const char* key) const;
+  JsonAt need(const char* key) const;
   // extensions[name], absent where either is.
-  Json extension(const char* name) const;
+  JsonAt extension(const char* name) const;
   // extras[name], absent where either is, and where extras are no object: they are anybody's.
-  Json extra(const char* name) const;
+  JsonAt extra(const char* name) const;
   std::vector<std::string> keys() const;
 
   // Elements of an array; 0 where absent.
   std::size_t size() const;
-  Json at(std::size_t i) const;
+  JsonAt at(std::size_t i) const;
 
   double number(double fallback, double lowest = -1e300, double highest = 1e300) const;
   // Whole numbers from 0 to 2^53, however they are written (3 or 3.0).
@@ -85,7 +81,7 @@ class Json {
 
  private:
   JsonDocument* document_;
-  const nlohmann::json* value_;
+  const oriel::Json* value_;
   std::string path_;
 };
 

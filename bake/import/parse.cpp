@@ -9,7 +9,7 @@ namespace oriel::gltf {
 namespace {
 
 // "2.0" as {2, 0}; an error where it is something else.
-std::array<int, 2> version(const Json& value, std::array<int, 2> fallback) {
+std::array<int, 2> version(const JsonAt& value, std::array<int, 2> fallback) {
   if (!value.present()) return fallback;
   const std::string text = value.text();
   int major = 0, minor = 0, used = 0;
@@ -21,8 +21,8 @@ std::array<int, 2> version(const Json& value, std::array<int, 2> fallback) {
   return {major, minor};
 }
 
-void parse_asset(const Json& root) {
-  const Json asset = root.need("asset");
+void parse_asset(const JsonAt& root) {
+  const JsonAt asset = root.need("asset");
   const auto found = version(asset.need("version"), {2, 0});
   if (found[0] != 2) asset["version"].expected("version 2.x");
   const auto lowest = version(asset["minVersion"], {2, 0});
@@ -32,8 +32,8 @@ void parse_asset(const Json& root) {
   if (lowest > std::array<int, 2>{2, 0}) asset["minVersion"].expected("at most \"2.0\"");
 }
 
-void parse_extensions(const Json& root, Document& document) {
-  const Json required = root["extensionsRequired"], used = root["extensionsUsed"];
+void parse_extensions(const JsonAt& root, Document& document) {
+  const JsonAt required = root["extensionsRequired"], used = root["extensionsUsed"];
   std::set<std::string> told;
   const auto tell = [&](const std::string& name, const Extension& extension) {
     if ((extension.support != Support::kWithout && extension.support != Support::kNone) || !told.insert(name).second)
@@ -57,7 +57,7 @@ void parse_extensions(const Json& root, Document& document) {
   }
 }
 
-BufferDesc parse_buffer(const Json& value) {
+BufferDesc parse_buffer(const JsonAt& value) {
   BufferDesc buffer;
   buffer.byte_length = value.need("byteLength").integer(0);
   if (value["uri"].present()) buffer.uri = value["uri"].text();
@@ -66,7 +66,8 @@ BufferDesc parse_buffer(const Json& value) {
 }
 
 // Records an error where [offset, offset + length) is not inside of a buffer.
-void check_range(const Json& value, int buffer, std::uint64_t offset, std::uint64_t length, const Document& document) {
+void check_range(const JsonAt& value, int buffer, std::uint64_t offset, std::uint64_t length,
+                 const Document& document) {
   if (buffer < 0) return;
   const std::uint64_t size = document.buffers[static_cast<std::size_t>(buffer)].byte_length;
   if (offset > size || length > size - offset)
@@ -74,7 +75,7 @@ void check_range(const Json& value, int buffer, std::uint64_t offset, std::uint6
                             offset + length, buffer, size));
 }
 
-MeshoptDesc parse_meshopt(const Json& value, const Document& document) {
+MeshoptDesc parse_meshopt(const JsonAt& value, const Document& document) {
   MeshoptDesc out;
   out.buffer = value.need("buffer").index(document.buffers.size());
   out.offset = value["byteOffset"].integer(0);
@@ -116,7 +117,7 @@ MeshoptDesc parse_meshopt(const Json& value, const Document& document) {
   return out;
 }
 
-ViewDesc parse_view(const Json& value, const Document& document) {
+ViewDesc parse_view(const JsonAt& value, const Document& document) {
   ViewDesc view;
   view.buffer = value.need("buffer").index(document.buffers.size());
   view.offset = value["byteOffset"].integer(0);
@@ -125,7 +126,7 @@ ViewDesc parse_view(const Json& value, const Document& document) {
   check_range(value, view.buffer, view.offset, view.length, document);
   if (view.stride != 0 && (view.stride < 4 || view.stride > 252 || view.stride % 4 != 0))
     value["byteStride"].expected("a multiple of 4 from 4 to 252");
-  if (const Json meshopt = value.extension("EXT_meshopt_compression"); meshopt.present()) {
+  if (const JsonAt meshopt = value.extension("EXT_meshopt_compression"); meshopt.present()) {
     view.meshopt = parse_meshopt(meshopt, document);
     if (view.meshopt->count * view.meshopt->stride != view.length)
       value["byteLength"].expected(
@@ -134,7 +135,7 @@ ViewDesc parse_view(const Json& value, const Document& document) {
   return view;
 }
 
-ComponentType component_type(const Json& value, bool indices) {
+ComponentType component_type(const JsonAt& value, bool indices) {
   const std::uint64_t code = value.integer(5126);
   for (const auto type : {5120, 5121, 5122, 5123, 5125, 5126})
     if (code == static_cast<std::uint64_t>(type) && (!indices || type == 5121 || type == 5123 || type == 5125))
@@ -149,7 +150,7 @@ struct ElementRun {
   bool strided = false;
 };
 // Records an error where elements do not fit their view.
-void check_elements(const Json& value, const ElementRun& run, const Document& document) {
+void check_elements(const JsonAt& value, const ElementRun& run, const Document& document) {
   const auto& [view, offset, count, element, strided] = run;
   if (view < 0 || count == 0) return;
   const ViewDesc& v = document.views[static_cast<std::size_t>(view)];
@@ -164,11 +165,11 @@ void check_elements(const Json& value, const ElementRun& run, const Document& do
         count, element, offset, view, v.length));
 }
 
-SparseDesc parse_sparse(const Json& value, const AccessorDesc& accessor, const Document& document) {
+SparseDesc parse_sparse(const JsonAt& value, const AccessorDesc& accessor, const Document& document) {
   SparseDesc sparse;
   sparse.count = value.need("count").integer(0);
   if (sparse.count > accessor.count) value["count"].expected(fmt::format("at most the accessor's {}", accessor.count));
-  const Json indices = value.need("indices"), values = value.need("values");
+  const JsonAt indices = value.need("indices"), values = value.need("values");
   sparse.indices_view = indices.need("bufferView").index(document.views.size());
   sparse.indices_offset = indices["byteOffset"].integer(0);
   sparse.indices_type = component_type(indices.need("componentType"), true);
@@ -181,7 +182,7 @@ SparseDesc parse_sparse(const Json& value, const AccessorDesc& accessor, const D
   return sparse;
 }
 
-AccessorDesc parse_accessor(const Json& value, const Document& document) {
+AccessorDesc parse_accessor(const JsonAt& value, const Document& document) {
   struct Type {
     const char* name;
     std::uint32_t columns, rows;
@@ -217,7 +218,7 @@ AccessorDesc parse_accessor(const Json& value, const Document& document) {
   return accessor;
 }
 
-ImageDesc parse_image(const Json& value, const Document& document) {
+ImageDesc parse_image(const JsonAt& value, const Document& document) {
   ImageDesc image;
   image.name = value["name"].name();
   if (value["uri"].present()) image.uri = value["uri"].text();
@@ -228,7 +229,7 @@ ImageDesc parse_image(const Json& value, const Document& document) {
 }
 
 template <class T, class Parse>
-void parse_array(const Json& array, std::vector<T>& out, const Parse& parse) {
+void parse_array(const JsonAt& array, std::vector<T>& out, const Parse& parse) {
   out.reserve(array.size());
   for (std::size_t i = 0; i < array.size(); ++i) out.push_back(parse(array.at(i)));
 }
@@ -258,18 +259,18 @@ DMat4 matrix_from_trs(const DVec3& t, const DVec4& q, const DVec3& s) {
 }
 
 Result<Document> parse_document(JsonDocument& json) {
-  const Json root = json.root();
+  const JsonAt root = json.root();
   Document document;
   document.file = json.file();
   parse_asset(root);
   ORIEL_TRY_VOID(json.status());
   parse_extensions(root, document);
   ORIEL_TRY_VOID(json.status());
-  parse_array(root["buffers"], document.buffers, [](const Json& v) { return parse_buffer(v); });
-  parse_array(root["bufferViews"], document.views, [&](const Json& v) { return parse_view(v, document); });
+  parse_array(root["buffers"], document.buffers, [](const JsonAt& v) { return parse_buffer(v); });
+  parse_array(root["bufferViews"], document.views, [&](const JsonAt& v) { return parse_view(v, document); });
   ORIEL_TRY_VOID(json.status());
-  parse_array(root["accessors"], document.accessors, [&](const Json& v) { return parse_accessor(v, document); });
-  parse_array(root["images"], document.images, [&](const Json& v) { return parse_image(v, document); });
+  parse_array(root["accessors"], document.accessors, [&](const JsonAt& v) { return parse_accessor(v, document); });
+  parse_array(root["images"], document.images, [&](const JsonAt& v) { return parse_image(v, document); });
   ORIEL_TRY_VOID(json.status());
   parse_materials(root, document);
   ORIEL_TRY_VOID(json.status());

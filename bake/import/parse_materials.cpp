@@ -22,7 +22,7 @@ struct TextureDesc {
   int image = -1, sampler = -1;
 };
 
-Wrap parse_wrap(const Json& value) {
+Wrap parse_wrap(const JsonAt& value) {
   switch (value.integer(10497)) {
     case 10497:
       return Wrap::kRepeat;
@@ -36,9 +36,9 @@ Wrap parse_wrap(const Json& value) {
   }
 }
 
-SamplerDesc parse_sampler(const Json& value) {
+SamplerDesc parse_sampler(const JsonAt& value) {
   SamplerDesc sampler{parse_wrap(value["wrapS"]), parse_wrap(value["wrapT"]), false};
-  const Json filter = value["magFilter"];
+  const JsonAt filter = value["magFilter"];
   const std::uint64_t code = filter.integer(9729);
   if (code != 9728 && code != 9729) filter.expected("9728 or 9729");
   sampler.nearest = code == 9728;
@@ -48,17 +48,17 @@ SamplerDesc parse_sampler(const Json& value) {
 // Reads the materials of one document.
 class MaterialParser {
  public:
-  MaterialParser(const Json& root, Document& document) : document_(document) {
-    const Json samplers = root["samplers"], textures = root["textures"];
+  MaterialParser(const JsonAt& root, Document& document) : document_(document) {
+    const JsonAt samplers = root["samplers"], textures = root["textures"];
     for (std::size_t i = 0; i < samplers.size(); ++i) samplers_.push_back(parse_sampler(samplers.at(i)));
     for (std::size_t i = 0; i < textures.size(); ++i) textures_.push_back(parse_texture(textures.at(i)));
   }
 
-  SceneMaterial parse(const Json& value, std::size_t i) {
+  SceneMaterial parse(const JsonAt& value, std::size_t i) {
     SceneMaterial m;
     m.name = value["name"].name();
     if (m.name.empty()) m.name = fmt::format("material {}", i);
-    const Json pbr = value["pbrMetallicRoughness"];
+    const JsonAt pbr = value["pbrMetallicRoughness"];
     std::array<double, 4> base{1, 1, 1, 1};
     pbr["baseColorFactor"].numbers(base);
     m.base_color = Vec3(unit(pbr["baseColorFactor"], base[0]), unit(pbr["baseColorFactor"], base[1]),
@@ -77,7 +77,7 @@ class MaterialParser {
     m.metal = parse_metal(value);
     m.double_sided = value["doubleSided"].boolean(false);
     m.unlit = value.extension("KHR_materials_unlit").present();
-    const Json normal = value["normalTexture"];
+    const JsonAt normal = value["normalTexture"];
     m.normal_texture = slot(normal);
     m.normal_scale = static_cast<float>(std::fmin(std::fmax(normal["scale"].number(1), -kMaxScale), kMaxScale));
     for (const std::string& name : value["extensions"].keys())
@@ -107,10 +107,10 @@ class MaterialParser {
   }
 
  private:
-  TextureDesc parse_texture(const Json& value) {
+  TextureDesc parse_texture(const JsonAt& value) {
     TextureDesc texture;
-    const Json webp = value.extension("EXT_texture_webp")["source"];
-    const Json source = webp.present() ? webp : value["source"];
+    const JsonAt webp = value.extension("EXT_texture_webp")["source"];
+    const JsonAt source = webp.present() ? webp : value["source"];
     texture.image = source.index(document_.images.size());
     texture.sampler = value["sampler"].index(samplers_.size());
     bool told = source.present();
@@ -123,21 +123,21 @@ class MaterialParser {
     return texture;
   }
 
-  void warn(const Json& value, const std::string& message) {
+  void warn(const JsonAt& value, const std::string& message) {
     document_.warnings.push_back(fmt::format("{}: {}", value.path(), message));
   }
 
-  float unit(const Json& value, double x) {
+  float unit(const JsonAt& value, double x) {
     if (x < 0 || x > 1) warn(value, fmt::format("found {}, expected 0 to 1: clamped", x));
     return static_cast<float>(std::fmin(std::fmax(x, 0.0), 1.0));
   }
 
-  TextureSlot slot(const Json& value) {
+  TextureSlot slot(const JsonAt& value) {
     TextureSlot slot;
     if (!value.present()) return slot;
     const int texture = value.need("index").index(textures_.size());
     std::uint64_t texcoord = value["texCoord"].integer(0);
-    const Json transform = value.extension("KHR_texture_transform");
+    const JsonAt transform = value.extension("KHR_texture_transform");
     if (transform.present()) {
       texcoord = transform["texCoord"].integer(texcoord);
       slot.image_from_uv = parse_transform(transform);
@@ -160,7 +160,7 @@ class MaterialParser {
 
   // Scale, then rotation, then offset. With v pointing down, "counter-clockwise" is as seen in the image; the sign was
   // checked against the markers of Khronos' TextureTransformTest.
-  static Mat3 parse_transform(const Json& value) {
+  static Mat3 parse_transform(const JsonAt& value) {
     std::array<double, 2> offset{0, 0}, scale{1, 1};
     value["offset"].numbers(offset);
     value["scale"].numbers(scale);
@@ -177,11 +177,11 @@ class MaterialParser {
     return Mat3(matrix);
   }
 
-  void parse_emission(const Json& value, SceneMaterial& m) {
+  void parse_emission(const JsonAt& value, SceneMaterial& m) {
     std::array<double, 3> factor{0, 0, 0};
-    const Json emissive = value["emissiveFactor"];
+    const JsonAt emissive = value["emissiveFactor"];
     emissive.numbers(factor);
-    const Json strength = value.extension("KHR_materials_emissive_strength")["emissiveStrength"];
+    const JsonAt strength = value.extension("KHR_materials_emissive_strength")["emissiveStrength"];
     const double scale = strength.number(1, 0);
     for (int i = 0; i < 3; ++i) {
       const double radiance = factor[static_cast<std::size_t>(i)] * scale;
@@ -195,7 +195,7 @@ class MaterialParser {
     m.emission_texture = slot(value["emissiveTexture"]);
   }
 
-  void parse_alpha(const Json& value, SceneMaterial& m) {
+  void parse_alpha(const JsonAt& value, SceneMaterial& m) {
     const std::string mode = value["alphaMode"].text("OPAQUE");
     if (mode == "MASK")
       m.alpha_mode = AlphaMode::kMask;
@@ -206,14 +206,14 @@ class MaterialParser {
     m.alpha_cutoff = static_cast<float>(value["alphaCutoff"].number(0.5, 0, 1e30));
   }
 
-  void parse_dielectric(const Json& value, SceneMaterial& m) {
-    const Json ior = value.extension("KHR_materials_ior")["ior"];
+  void parse_dielectric(const JsonAt& value, SceneMaterial& m) {
+    const JsonAt ior = value.extension("KHR_materials_ior")["ior"];
     m.ior = static_cast<float>(ior.number(1.5, 0, 1e6));
     if (m.ior != 0 && m.ior < 1) {
       warn(ior, fmt::format("found {}, expected 0 or at least 1: taken as 1", m.ior));
       m.ior = 1;
     }
-    const Json specular = value.extension("KHR_materials_specular");
+    const JsonAt specular = value.extension("KHR_materials_specular");
     m.specular = unit(specular["specularFactor"], specular["specularFactor"].number(1));
     std::array<double, 3> color{1, 1, 1};
     specular["specularColorFactor"].numbers(color);
@@ -226,7 +226,7 @@ class MaterialParser {
     }
     m.specular_texture = slot(specular["specularTexture"]);
     m.specular_color_texture = slot(specular["specularColorTexture"]);
-    const Json transmission = value.extension("KHR_materials_transmission");
+    const JsonAt transmission = value.extension("KHR_materials_transmission");
     m.transmission = unit(transmission["transmissionFactor"], transmission["transmissionFactor"].number(0));
     m.transmission_texture = slot(transmission["transmissionTexture"]);
     parse_volume(value, m);
@@ -234,8 +234,8 @@ class MaterialParser {
 
   // What older exporters write instead of metalness: the colour of reflections as such, with Schlick's curve, which is
   // that of an index of 0.
-  void parse_glossiness(const Json& value, SceneMaterial& m) {
-    const Json old = value.extension("KHR_materials_pbrSpecularGlossiness");
+  void parse_glossiness(const JsonAt& value, SceneMaterial& m) {
+    const JsonAt old = value.extension("KHR_materials_pbrSpecularGlossiness");
     if (!old.present()) return;
     std::array<double, 4> diffuse{1, 1, 1, 1};
     std::array<double, 3> specular{1, 1, 1};
@@ -256,11 +256,11 @@ class MaterialParser {
 
   // Whether its surfaces are closed is found once they are placed (solids.h). The thickness itself is for those who
   // cannot follow light through the mesh.
-  void parse_volume(const Json& value, SceneMaterial& m) {
-    const Json volume = value.extension("KHR_materials_volume");
+  void parse_volume(const JsonAt& value, SceneMaterial& m) {
+    const JsonAt volume = value.extension("KHR_materials_volume");
     const double thickness = volume["thicknessFactor"].number(0, 0);
     slot(volume["thicknessTexture"]);
-    const Json distance = volume["attenuationDistance"];
+    const JsonAt distance = volume["attenuationDistance"];
     double metres = distance.number(std::numeric_limits<double>::infinity());
     if (distance.present() && !(metres > 0)) {
       warn(distance, fmt::format("found {}, expected a distance above 0: the glass absorbs nothing", metres));
@@ -280,8 +280,8 @@ class MaterialParser {
     }
   }
 
-  void parse_coat(const Json& value, SceneMaterial& m) {
-    const Json coat = value.extension("KHR_materials_clearcoat");
+  void parse_coat(const JsonAt& value, SceneMaterial& m) {
+    const JsonAt coat = value.extension("KHR_materials_clearcoat");
     m.coat = unit(coat["clearcoatFactor"], coat["clearcoatFactor"].number(0));
     m.coat_roughness = unit(coat["clearcoatRoughnessFactor"], coat["clearcoatRoughnessFactor"].number(0));
     m.coat_texture = slot(coat["clearcoatTexture"]);
@@ -290,8 +290,8 @@ class MaterialParser {
       warn(coat, "clearcoatNormalTexture is left out: the coat follows the normals of what it covers");
   }
 
-  void parse_anisotropy(const Json& value, SceneMaterial& m) {
-    const Json anisotropy = value.extension("KHR_materials_anisotropy");
+  void parse_anisotropy(const JsonAt& value, SceneMaterial& m) {
+    const JsonAt anisotropy = value.extension("KHR_materials_anisotropy");
     m.anisotropy = unit(anisotropy["anisotropyStrength"], anisotropy["anisotropyStrength"].number(0));
     m.anisotropy_rotation_rad = static_cast<float>(anisotropy["anisotropyRotation"].number(0, -1e6, 1e6));
     m.anisotropy_texture = slot(anisotropy["anisotropyTexture"]);
@@ -307,17 +307,17 @@ class MaterialParser {
 
 }  // namespace
 
-Metal parse_metal(const Json& value) {
-  const Json name = value.extra("oriel_metal");
+Metal parse_metal(const JsonAt& value) {
+  const JsonAt name = value.extra("oriel_metal");
   if (!name.present()) return Metal::kNone;
   const auto metal = metal_by_name(name.text());
   if (!metal) name.expected(metal_names());
   return metal.value_or(Metal::kNone);
 }
 
-void parse_materials(const Json& root, Document& document) {
+void parse_materials(const JsonAt& root, Document& document) {
   MaterialParser parser(root, document);
-  const Json materials = root["materials"];
+  const JsonAt materials = root["materials"];
   for (std::size_t i = 0; i < materials.size(); ++i) document.materials.push_back(parser.parse(materials.at(i), i));
   parser.warn_of_omissions();
 }

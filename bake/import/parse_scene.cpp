@@ -8,25 +8,25 @@
 namespace oriel::gltf {
 namespace {
 
-PrimitiveDesc parse_primitive(const Json& value, std::size_t materials, const Document& document) {
+PrimitiveDesc parse_primitive(const JsonAt& value, std::size_t materials, const Document& document) {
   PrimitiveDesc p;
   p.path = value.path();
   p.mode = static_cast<int>(value["mode"].integer(4, 6));
   p.indices = value["indices"].index(document.accessors.size());
   p.material = value["material"].index(materials);
-  const Json attributes = value.need("attributes");
+  const JsonAt attributes = value.need("attributes");
   for (const std::string& name : attributes.keys())
     p.attributes[name] = attributes[name.c_str()].index(document.accessors.size());
-  const Json draco = value.extension("KHR_draco_mesh_compression");
+  const JsonAt draco = value.extension("KHR_draco_mesh_compression");
   if (draco.present()) {
     p.draco.emplace();
     p.draco->view = draco.need("bufferView").index(document.views.size());
-    const Json ids = draco.need("attributes");
+    const JsonAt ids = draco.need("attributes");
     for (const std::string& name : ids.keys())
       p.draco->attributes[name] = static_cast<std::uint32_t>(ids[name.c_str()].integer(0, ~0u));
     if (p.mode != 4 && p.mode != 5) value["mode"].expected("4 or 5 with KHR_draco_mesh_compression");
   }
-  const Json targets = value["targets"];
+  const JsonAt targets = value["targets"];
   for (std::size_t i = 0; i < targets.size(); ++i) {
     TargetDesc& target = p.targets.emplace_back();
     for (const std::string& name : targets.at(i).keys())
@@ -35,15 +35,15 @@ PrimitiveDesc parse_primitive(const Json& value, std::size_t materials, const Do
   return p;
 }
 
-std::vector<double> parse_weights(const Json& value) {
+std::vector<double> parse_weights(const JsonAt& value) {
   std::vector<double> weights;
   for (std::size_t i = 0; i < value.size(); ++i) weights.push_back(value.at(i).number(0, -1e6, 1e6));
   return weights;
 }
 
-SkinDesc parse_skin(const Json& value, std::size_t nodes, const Document& document) {
+SkinDesc parse_skin(const JsonAt& value, std::size_t nodes, const Document& document) {
   SkinDesc skin;
-  const Json joints = value.need("joints");
+  const JsonAt joints = value.need("joints");
   for (std::size_t i = 0; i < joints.size(); ++i)
     if (const int joint = joints.at(i).index(nodes); joint >= 0)
       skin.joints.push_back(static_cast<std::uint32_t>(joint));
@@ -74,8 +74,8 @@ bool shears(const DMat4& m) {
   return false;
 }
 
-void parse_transform(const Json& value, NodeDesc& node) {
-  const Json matrix = value["matrix"];
+void parse_transform(const JsonAt& value, NodeDesc& node) {
+  const JsonAt matrix = value["matrix"];
   std::array<double, 3> t{0, 0, 0}, s{1, 1, 1};
   std::array<double, 4> r{0, 0, 0, 1};
   value["translation"].numbers(t);
@@ -99,12 +99,12 @@ void parse_transform(const Json& value, NodeDesc& node) {
 }
 
 // Half of extras.oriel.angular_diameter_deg: how large a directional light appears.
-float angular_radius(const Json& value, double fallback) {
+float angular_radius(const JsonAt& value, double fallback) {
   return static_cast<float>(value.extra("oriel")["angular_diameter_deg"].number(fallback * 360 / kPiD, 0, 180) * kPiD /
                             360);
 }
 
-NodeDesc parse_node(const Json& value, std::size_t count, const Document& document) {
+NodeDesc parse_node(const JsonAt& value, std::size_t count, const Document& document) {
   NodeDesc node;
   node.name = value["name"].name();
   node.mesh = value["mesh"].index(document.meshes.size());
@@ -117,13 +117,13 @@ NodeDesc parse_node(const Json& value, std::size_t count, const Document& docume
   node.mover = value.extra("oriel")["mover"].boolean(false);
   node.light_group = value.extra("oriel")["light_group"].name();
   parse_transform(value, node);
-  const Json children = value["children"];
+  const JsonAt children = value["children"];
   for (std::size_t i = 0; i < children.size(); ++i)
     if (const int child = children.at(i).index(count); child >= 0)
       node.children.push_back(static_cast<std::uint32_t>(child));
-  const Json instancing = value.extension("EXT_mesh_gpu_instancing");
+  const JsonAt instancing = value.extension("EXT_mesh_gpu_instancing");
   if (instancing.present() && node.mesh >= 0) {
-    const Json attributes = instancing.need("attributes");
+    const JsonAt attributes = instancing.need("attributes");
     for (const std::string& name : attributes.keys())
       if (const int accessor = attributes[name.c_str()].index(document.accessors.size()); accessor >= 0)
         node.instance_attributes[name] = accessor;
@@ -132,7 +132,7 @@ NodeDesc parse_node(const Json& value, std::size_t count, const Document& docume
   return node;
 }
 
-CameraDesc parse_camera(const Json& value, std::size_t i) {
+CameraDesc parse_camera(const JsonAt& value, std::size_t i) {
   CameraDesc camera;
   camera.name = value["name"].name();
   if (camera.name.empty()) camera.name = fmt::format("camera {}", i);
@@ -149,7 +149,7 @@ CameraDesc parse_camera(const Json& value, std::size_t i) {
   return camera;
 }
 
-Light parse_light(const Json& value, std::size_t i, Document& document) {
+Light parse_light(const JsonAt& value, std::size_t i, Document& document) {
   Light light;
   light.name = value["name"].name();
   if (light.name.empty()) light.name = fmt::format("light {}", i);
@@ -177,7 +177,7 @@ Light parse_light(const Json& value, std::size_t i, Document& document) {
     document.warnings.push_back(fmt::format("{}: range {} is ignored: light falls off with the square of the distance",
                                             value.path(), value["range"].number(0)));
   if (light.type == LightType::kSpot) {
-    const Json spot = value["spot"];
+    const JsonAt spot = value["spot"];
     light.inner_cone_rad = static_cast<float>(spot["innerConeAngle"].number(0, 0, kPiD / 2));
     light.outer_cone_rad = static_cast<float>(spot["outerConeAngle"].number(kPiD / 4, 0, kPiD / 2 + 1e-6));
     if (light.inner_cone_rad >= light.outer_cone_rad)
@@ -187,12 +187,12 @@ Light parse_light(const Json& value, std::size_t i, Document& document) {
   return light;
 }
 
-AnimationDesc parse_animation(const Json& value, const Document& document) {
+AnimationDesc parse_animation(const JsonAt& value, const Document& document) {
   AnimationDesc animation;
   animation.name = value["name"].name();
-  const Json samplers = value["samplers"], channels = value["channels"];
+  const JsonAt samplers = value["samplers"], channels = value["channels"];
   for (std::size_t i = 0; i < samplers.size(); ++i) {
-    const Json s = samplers.at(i);
+    const JsonAt s = samplers.at(i);
     AnimationDesc::Sampler sampler;
     sampler.input = s.need("input").index(document.accessors.size());
     sampler.output = s.need("output").index(document.accessors.size());
@@ -207,7 +207,7 @@ AnimationDesc parse_animation(const Json& value, const Document& document) {
     animation.samplers.push_back(sampler);
   }
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    const Json c = channels.at(i);
+    const JsonAt c = channels.at(i);
     AnimationDesc::Channel channel;
     channel.file_path = c.path();
     channel.sampler = c.need("sampler").index(animation.samplers.size());
@@ -219,7 +219,7 @@ AnimationDesc parse_animation(const Json& value, const Document& document) {
 }
 
 // Parents, double parents and cycles.
-void check_tree(const Json& nodes, Document& document) {
+void check_tree(const JsonAt& nodes, Document& document) {
   std::vector<std::uint32_t> reached;
   for (std::size_t i = 0; i < document.nodes.size(); ++i)
     for (const std::uint32_t child : document.nodes[i].children) {
@@ -242,13 +242,13 @@ void check_tree(const Json& nodes, Document& document) {
     if (!seen[i]) return nodes.at(i).error("found a node that is its own ancestor, expected a tree");
 }
 
-void parse_scenes(const Json& root, Document& document) {
-  const Json scenes = root["scenes"];
+void parse_scenes(const JsonAt& root, Document& document) {
+  const JsonAt scenes = root["scenes"];
   std::vector<std::size_t> taken(document.nodes.size(), scenes.size());  // by node: the last scene that lists it
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     SceneDesc scene;
     scene.name = scenes.at(i)["name"].name();
-    const Json nodes = scenes.at(i)["nodes"];
+    const JsonAt nodes = scenes.at(i)["nodes"];
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const int node = nodes.at(k).index(document.nodes.size());
       if (node < 0) continue;
@@ -291,12 +291,12 @@ void note_deformations(Document& document) {
 
 }  // namespace
 
-void parse_meshes(const Json& root, std::size_t materials, Document& document) {
-  const Json meshes = root["meshes"];
+void parse_meshes(const JsonAt& root, std::size_t materials, Document& document) {
+  const JsonAt meshes = root["meshes"];
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     MeshDesc mesh;
     mesh.name = meshes.at(i)["name"].name();
-    const Json primitives = meshes.at(i).need("primitives");
+    const JsonAt primitives = meshes.at(i).need("primitives");
     for (std::size_t k = 0; k < primitives.size(); ++k)
       mesh.primitives.push_back(parse_primitive(primitives.at(k), materials, document));
     mesh.weights = parse_weights(meshes.at(i)["weights"]);
@@ -304,11 +304,12 @@ void parse_meshes(const Json& root, std::size_t materials, Document& document) {
   }
 }
 
-void parse_nodes(const Json& root, Document& document) {
-  const Json cameras = root["cameras"], lights = root.extension("KHR_lights_punctual")["lights"], nodes = root["nodes"];
+void parse_nodes(const JsonAt& root, Document& document) {
+  const JsonAt cameras = root["cameras"], lights = root.extension("KHR_lights_punctual")["lights"],
+               nodes = root["nodes"];
   for (std::size_t i = 0; i < cameras.size(); ++i) document.cameras.push_back(parse_camera(cameras.at(i), i));
   for (std::size_t i = 0; i < lights.size(); ++i) document.lights.push_back(parse_light(lights.at(i), i, document));
-  const Json skins = root["skins"];
+  const JsonAt skins = root["skins"];
   for (std::size_t i = 0; i < skins.size(); ++i)
     document.skins.push_back(parse_skin(skins.at(i), nodes.size(), document));
   std::size_t sheared = 0, last_sheared = 0;
@@ -326,7 +327,7 @@ void parse_nodes(const Json& root, Document& document) {
   check_tree(nodes, document);
   if (!root.document().status()) return;
   parse_scenes(root, document);
-  const Json animations = root["animations"];
+  const JsonAt animations = root["animations"];
   for (std::size_t i = 0; i < animations.size(); ++i)
     document.animations.push_back(parse_animation(animations.at(i), document));
   note_deformations(document);

@@ -13,7 +13,7 @@ struct Pose {
   bool ok = false;
 };
 
-Pose pose_of(const DMat4& world_from_node, const DVec3& origin) {
+Pose camera_pose(const DMat4& world_from_node, const DVec3& origin) {
   Pose pose;
   const DVec3 forward = -DVec3(world_from_node[2]), up(world_from_node[1]);
   const double f2 = glm::dot(forward, forward), u2 = glm::dot(up, up);
@@ -39,7 +39,7 @@ Result<std::vector<CameraKey>> camera_keys(const Document& document, std::uint32
   std::vector<CameraKey> keys;
   ORIEL_TRY(const std::vector<MotionKey> motion, motion_of(document, node, animation));
   for (const MotionKey& m : motion) {
-    const Pose pose = pose_of(m.world_from_node, origin);
+    const Pose pose = camera_pose(m.world_from_node, origin);
     lost |= !pose.ok;
     const CameraKey key{static_cast<float>(m.time_s), pose.eye, pose.forward};
     if (!keys.empty() && keys.back().time_s == key.time_s && keys.back().eye == key.eye &&
@@ -80,7 +80,7 @@ Status place_viewpoints(const PosedNodes& nodes, std::span<const Animation> anim
   for (const NodePose& node_pose : nodes.poses) {
     const gltf::NodeDesc& node = document.nodes[node_pose.node];
     if (node.camera < 0 && node.light < 0) continue;
-    const Pose pose = pose_of(node_pose.world_from_node, scene.origin);
+    const Pose pose = camera_pose(node_pose.world_from_node, scene.origin);
     if (!pose.ok) {
       context.warning(
           fmt::format("node \"{}\": its camera or light has no finite place and direction and is left out", node.name));

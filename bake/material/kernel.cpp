@@ -14,7 +14,7 @@ constexpr int kPolar = 512, kAzimuth = 64;  // nodes of the lobe
 constexpr int kSubsamples = 4;              // per pixel and axis
 constexpr double kBinnedBelow = 0.25;       // cosθ: beneath it the lobe is narrower across than what subsamples catch
 
-struct Node {
+struct KernelNode {
   double extent;  // max of |tangents| of the reflected direction; infinite behind the tangent plane
   double weight;  // of the lobe, both sides
   DVec2 tangent;  // x >= 0; undefined where extent is infinite
@@ -22,9 +22,9 @@ struct Node {
 
 // Weights by counting the lobe's nodes, for grazing lobes: their width across the plane of incidence shrinks with cosθ,
 // the nodes follow it.
-std::vector<double> binned_weights(const std::vector<Node>& nodes, double half_extent, std::uint32_t size) {
+std::vector<double> binned_weights(const std::vector<KernelNode>& nodes, double half_extent, std::uint32_t size) {
   std::vector<double> weights(std::size_t{size} * size);
-  for (const Node& node : nodes) {
+  for (const KernelNode& node : nodes) {
     if (node.extent > half_extent) continue;
     const auto at = [&](double t) {
       return std::min(static_cast<std::uint32_t>((t / half_extent + 1) * 0.5 * size), size - 1);
@@ -35,9 +35,9 @@ std::vector<double> binned_weights(const std::vector<Node>& nodes, double half_e
   return weights;
 }
 
-std::vector<Node> tangent_nodes(const LobeFunction& lobe, double alpha, double cos_theta) {
+std::vector<KernelNode> tangent_nodes(const LobeFunction& lobe, double alpha, double cos_theta) {
   const MirrorFrame frame(cos_theta);
-  std::vector<Node> nodes;
+  std::vector<KernelNode> nodes;
   for (const auto& [wi, weight] : lobe_nodes(lobe, alpha, frame, kPolar, kAzimuth)) {
     const double toward = glm::dot(wi, frame.mirror);
     const DVec2 tangent = DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) / toward;
@@ -53,18 +53,18 @@ struct Extent {
   double energy_kept;
 };
 
-Extent choose_extent(const std::vector<Node>& unsorted, double alpha, const KernelOptions& options) {
-  std::vector<Node> nodes = unsorted;
-  std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) {
+Extent choose_extent(const std::vector<KernelNode>& unsorted, double alpha, const KernelOptions& options) {
+  std::vector<KernelNode> nodes = unsorted;
+  std::sort(nodes.begin(), nodes.end(), [](const KernelNode& a, const KernelNode& b) {
     return a.extent != b.extent ? a.extent < b.extent : a.weight < b.weight;
   });
   double total = 0;
-  for (const Node& node : nodes) total += node.weight;
+  for (const KernelNode& node : nodes) total += node.weight;
   const double largest = std::clamp(static_cast<double>(options.max_half_extent), 1e-3, 100.0);
   if (!(total > 0)) return {std::min(largest, 4 * alpha), 0};
   const double wanted = std::clamp(static_cast<double>(options.energy), 0.01, 0.9999) * total;
   double kept = 0, extent = 0;
-  for (const Node& node : nodes) {
+  for (const KernelNode& node : nodes) {
     if (node.extent > largest || (kept >= wanted && node.extent > extent)) break;
     kept += node.weight;
     extent = node.extent;
@@ -124,7 +124,7 @@ BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta, const Ke
   if (a < kMirrorBelow) return kernel;
 
   const LobeFunction lobe = microfacet_lobe(model, options.form, a);
-  const std::vector<Node> nodes = tangent_nodes(lobe, a, c);
+  const std::vector<KernelNode> nodes = tangent_nodes(lobe, a, c);
   const Extent extent = choose_extent(nodes, a, options);
   kernel.half_extent = static_cast<float>(extent.half_extent);
   kernel.energy_kept = static_cast<float>(std::min(extent.energy_kept, 1.0));

@@ -9,10 +9,10 @@
 namespace oriel {
 namespace {
 
-constexpr int kPolar = 128, kAzimuth = 32;  // nodes of the lobe
-constexpr int kSubsamples = 4;              // per pixel and axis
+constexpr int kSlicePolar = 128, kSliceAzimuth = 32;  // nodes of the lobe
+constexpr int kSliceSubsamples = 4;                   // per pixel and axis
 
-struct Node {
+struct SliceNode {
   DVec2 u;  // mirror coordinates, x >= 0
   double weight;
 };
@@ -27,9 +27,9 @@ DVec2 project(const MirrorFrame& frame, const DVec3& wi) {
   return DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) * (2 / away);
 }
 
-std::vector<Node> projected_nodes(const LobeFunction& lobe, double alpha, const MirrorFrame& frame) {
-  std::vector<Node> nodes;
-  for (const LobeNode& node : lobe_nodes(lobe, alpha, frame, kPolar, kAzimuth))
+std::vector<SliceNode> projected_nodes(const LobeFunction& lobe, double alpha, const MirrorFrame& frame) {
+  std::vector<SliceNode> nodes;
+  for (const LobeNode& node : lobe_nodes(lobe, alpha, frame, kSlicePolar, kSliceAzimuth))
     nodes.push_back({project(frame, node.wi), node.weight});
   return nodes;
 }
@@ -38,8 +38,8 @@ std::vector<Node> projected_nodes(const LobeFunction& lobe, double alpha, const 
 class Distribution {
  public:
   template <class Key>
-  Distribution(const std::vector<Node>& nodes, const Key& key) {
-    for (const Node& node : nodes) values_.emplace_back(key(node), node.weight);
+  Distribution(const std::vector<SliceNode>& nodes, const Key& key) {
+    for (const SliceNode& node : nodes) values_.emplace_back(key(node), node.weight);
     std::sort(values_.begin(), values_.end());
     double sum = 0;
     for (auto& [value, weight] : values_) weight = sum += weight;
@@ -87,8 +87,8 @@ std::vector<float> integrate_pixels(const LobeFunction& lobe, const MirrorFrame&
   for (std::uint32_t y = 0; y < size; ++y)
     for (std::uint32_t x = 0; x <= size / 2; ++x) {
       double sum = 0;
-      for (int s = 0; s < kSubsamples * kSubsamples; ++s) {
-        const DVec2 in_pixel = (DVec2(s % kSubsamples, s / kSubsamples) + 0.5) / double(kSubsamples);
+      for (int s = 0; s < kSliceSubsamples * kSliceSubsamples; ++s) {
+        const DVec2 in_pixel = (DVec2(s % kSliceSubsamples, s / kSliceSubsamples) + 0.5) / double(kSliceSubsamples);
         const DVec2 u = slice_point(slice, (DVec2(x, y) + in_pixel) / double(size));
         // dω = dA / q², and du = width cosh(s) ds
         const double q = 1 + 0.25 * glm::dot(u, u);
@@ -120,18 +120,18 @@ DVec2 to_mirror_coordinates(double cos_theta, const DVec3& wi) {
 
 KernelSlice make_slice(const LobeFunction& lobe, double alpha, double cos_theta, const SliceOptions& options) {
   const MirrorFrame frame(cos_theta);
-  const std::vector<Node> nodes = projected_nodes(lobe, alpha, frame);
+  const std::vector<SliceNode> nodes = projected_nodes(lobe, alpha, frame);
   double total = 0;
   DVec3 mean(0);
-  for (const Node& node : nodes) {
+  for (const SliceNode& node : nodes) {
     total += node.weight;
     mean += node.weight * unproject(frame, node.u);
   }
   ORIEL_CHECK(total > 0 && std::isfinite(total));
   const double tail = 1 - std::clamp(static_cast<double>(options.energy), 0.5, 0.9999);
-  const Distribution along(nodes, [](const Node& node) { return node.u.y; });
-  const Distribution across(nodes, [](const Node& node) { return node.u.x; });
-  const Distribution around(nodes, [](const Node& node) { return glm::length(node.u); });
+  const Distribution along(nodes, [](const SliceNode& node) { return node.u.y; });
+  const Distribution across(nodes, [](const SliceNode& node) { return node.u.x; });
+  const Distribution around(nodes, [](const SliceNode& node) { return glm::length(node.u); });
 
   KernelSlice slice;
   slice.cos_theta = static_cast<float>(cos_theta);
@@ -149,7 +149,7 @@ KernelSlice make_slice(const LobeFunction& lobe, double alpha, double cos_theta,
     slice.radial.push_back(static_cast<float>(around.share(slice.radial_extent * std::pow(i / (entries - 1.0), 2))));
   const DVec2 low = slice_point(slice, {0, 0}), high = slice_point(slice, {1, 1});
   double kept = 0;
-  for (const Node& node : nodes)
+  for (const SliceNode& node : nodes)
     if (node.u.x <= high.x && node.u.y >= low.y && node.u.y <= high.y) kept += node.weight;
   slice.energy_kept = static_cast<float>(std::min(kept / total, 1.0));
   slice.weights = integrate_pixels(lobe, frame, slice, std::max(options.size | 1u, 3u));

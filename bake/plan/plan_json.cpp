@@ -1,12 +1,9 @@
-#include <nlohmann/json.hpp>
-
 #include "bake/plan/plan.h"
 #include "bake/run/version.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;  // grows when a field changes its meaning or goes; new fields leave it as it is
 
@@ -117,7 +114,7 @@ std::string plan_as_json(const ScenePlan& plan) {
                      {"omitted", texts_of(c.omissions)},
                      {"findings", findings_json(plan.findings, plan.allowed)},
                      {"prediction", plan.prediction ? prediction_json(*plan.prediction) : Json()}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(2) + "\n";
 }
 
 }  // namespace oriel

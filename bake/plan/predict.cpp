@@ -9,12 +9,12 @@
 namespace oriel {
 namespace {
 
-constexpr double kCoarser = 4;             // texels of the finer pilot: 1/16 as many, of the coarser one 1/64
-constexpr double kLeastTexels = 2000;      // of the finer one, where the scene has as many
-constexpr double kMissed = 1.5;            // the error asked for by so much: rays a texel are limited
-constexpr double kSlowPaths = 1.5;         // a ray of verification takes longer than a gathered one
-constexpr double kNominalError = 0.02;     // of pilots where time alone limits the work
-constexpr double kLeastAskedError = 1e-3;  // what a bake limited by time alone asks for
+constexpr double kCoarser = 4;              // texels of the finer pilot: 1/16 as many, of the coarser one 1/64
+constexpr double kLeastPilotTexels = 2000;  // of the finer one, where the scene has as many
+constexpr double kMissed = 1.5;             // the error asked for by so much: rays a texel are limited
+constexpr double kSlowPaths = 1.5;          // a ray of verification takes longer than a gathered one
+constexpr double kNominalError = 0.02;      // of pilots where time alone limits the work
+constexpr double kLeastAskedError = 1e-3;   // what a bake limited by time alone asks for
 
 // A small bake of the lightmap.
 struct LightmapPilot {
@@ -174,7 +174,7 @@ Result<Prediction> predict(const CensusInput& in, const Census& census, double s
                                  [](const StageCensus& s) { return s.name == "radiosity" && s.runs; });
   if (light) {
     LightmapPilot pilots[2];
-    const double coarser = std::clamp(std::sqrt(texels_of(in.prepared.texel_map) / kLeastTexels), 1.0, kCoarser);
+    const double coarser = std::clamp(std::sqrt(texels_of(in.prepared.texel_map) / kLeastPilotTexels), 1.0, kCoarser);
     ORIEL_TRY(pilots[0], bake_coarse(in, 2 * coarser, context));
     ORIEL_TRY(pilots[1], bake_coarse(in, coarser, context));
     p.components.front().bytes = pilots[1].scene_bytes;

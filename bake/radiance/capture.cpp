@@ -39,7 +39,7 @@ SeenLight see(const LitSurroundings& lit, std::uint32_t reflector, const Vec3& f
 namespace {
 
 constexpr std::uint32_t kRowsABand = 32;
-constexpr double kRaysABand =
+constexpr double kRaysAMapBand =
     1 << 17;  // about, many pixels see by way of lobes: a unit of its own (bake/jobs/units.cpp)
 
 }  // namespace
@@ -83,7 +83,7 @@ std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::
 }
 
 UnitLoop capture_loop(const LitSurroundings& lit, const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps) {
-  UnitLoop loop{.stage = "radiance", .count = bands.size(), .rays = kRaysABand};
+  UnitLoop loop{.stage = "radiance", .count = bands.size(), .rays = kRaysAMapBand};
   loop.inputs = [&](std::size_t i, Archive& key) {
     key(frame_of(maps[bands[i].map]), bands[i].first_row, bands[i].rows);
   };

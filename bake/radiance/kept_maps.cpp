@@ -11,11 +11,11 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kBlock = 4;      // pixels along each side, of which one is captured anew
-constexpr double kRaysABand = 1 << 13;   // that these take, about
-constexpr double kDarkest = 0.01;        // of the map's mean: what darker light is compared with
-constexpr float kSameDisparity = 0.03f;  // relative, as where a map is read
-constexpr float kBehind = 1 + 1e-4f;     // of the distance to what a pixel shows: still that
+constexpr std::uint32_t kBlock = 4;           // pixels along each side, of which one is captured anew
+constexpr double kRaysALook = 1 << 13;        // that these take, about
+constexpr double kDarkest = 0.01;             // of the map's mean: what darker light is compared with
+constexpr float kUnchangedDisparity = 0.03f;  // relative, as where a map is read
+constexpr float kBehind = 1 + 1e-4f;          // of the distance to what a pixel shows: still that
 
 // What the edit did to a band, as far as the sample tells.
 struct BandCheck {
@@ -68,7 +68,7 @@ class Checker {
   // Squared, relative.
   static double difference(const RadianceMap& map, std::size_t at, const MapPixel& now, const Vec3& darkest) {
     const float disparity = map.disparity[at];
-    if (map.valid[at] != now.valid || std::abs(disparity - now.disparity) > kSameDisparity * disparity) return 1;
+    if (map.valid[at] != now.valid || std::abs(disparity - now.disparity) > kUnchangedDisparity * disparity) return 1;
     double square = 0;
     for (int c = 0; c < 3; ++c) {
       const double d = now.radiance[c] - map.radiance[at][c];
@@ -143,7 +143,7 @@ Result<MapReuse> capture_edited_maps(const LitSurroundings& lit, const Edit& edi
   const Checker checker(lit, edit.boxes, context.seed);
   const std::vector<Vec3> darkest = darkest_of(maps, there);
   std::vector<BandCheck> checks(there.size());
-  UnitLoop check{.stage = "known radiance", .count = there.size(), .rays = kRaysABand};
+  UnitLoop check{.stage = "known radiance", .count = there.size(), .rays = kRaysALook};
   check.inputs = [&](std::size_t i, Archive& key) {
     const MapBand& band = there[i];
     key(frame_of(maps[band.map]), band.first_row, band.rows, known.inputs, darkest[band.map]);

@@ -8,11 +8,11 @@
 namespace oriel {
 namespace {
 
-constexpr int kMostHidden = 16;          // surfaces in front of one that a residual shows
-constexpr float kSameDisparity = 1e-3f;  // relative: of a surface that is looked at again
-constexpr float kEdgeOn = 1e-4f;         // cosine at which a plane has no image
+constexpr int kMostHidden = 16;      // surfaces in front of one that a residual shows
+constexpr float kSamePlane = 1e-3f;  // relative: of a surface that is looked at again
+constexpr float kEdgeOn = 1e-4f;     // cosine at which a plane has no image
 
-bool depth_is_enough(const SeenSurface&) {
+bool is_depth_enough(const SeenSurface&) {
   return false;
 }
 
@@ -35,12 +35,12 @@ PixelPlane plane_of(const ReflectedSurroundings& surroundings, const RadianceMap
   const Mat3 to_reflector = glm::transpose(Mat3(reflector.pack_from_reflector));
   Vec3 from = ray.from;
   for (int hidden = 0; hidden < kMostHidden; ++hidden) {
-    const Sight sight = surroundings.look(map.reflector, from, ray.direction, depth_is_enough);
+    const Sight sight = surroundings.look(map.reflector, from, ray.direction, is_depth_enough);
     const float step = glm::length(sight.offset);
     if (!(step > 0)) return plane;
     const Vec3 p = reflector_from_pack(reflector, from + sight.offset);
     const float found = disparity_of(map, p.z);
-    if (std::abs(found - plane.disparity) <= kSameDisparity * plane.disparity + 1e-6f) {
+    if (std::abs(found - plane.disparity) <= kSamePlane * plane.disparity + 1e-6f) {
       plane.slope = slope_of(map, p, to_reflector * sight.normal);
       return plane;
     }

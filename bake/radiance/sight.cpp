@@ -10,7 +10,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kMaxLayers = 64;             // of transmitting surfaces before the first opaque one
+constexpr int kMaxReflectedLayers = 64;    // of transmitting surfaces before the first opaque one
 constexpr float kSeeThrough = 0.5f;        // transmittance from which depth is that of what lies behind
 constexpr float kImage = 0.5f;             // reflectance from which depth is that of the mirror's image
 constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
@@ -53,7 +53,7 @@ class ReflectedSurroundings::Walk {
   }
 
   Sight run() {
-    for (int layer = 0; layer < kMaxLayers; ++layer) {
+    for (int layer = 0; layer < kMaxReflectedLayers; ++layer) {
       const Hit hit = in_.accel_.intersect(ray_);
       ++sight_.rays;
       if (!hit) return leave();

@@ -8,11 +8,11 @@
 namespace oriel {
 namespace {
 
-constexpr int kMaxLayers = 64;             // of surfaces before the first opaque one
-constexpr float kSeeThrough = 0.5f;        // transmittance from which distance is that of what lies behind
-constexpr float kNearest = 1e-3f;          // of the object's size: a surface through the very centre has no distance
-constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
-constexpr float kAtBounds = 1 - 1e-4f;     // of the way out of the bounds: what the object stands on is not in it
+constexpr int kMaxSurroundLayers = 64;       // of surfaces before the first opaque one
+constexpr float kSurroundSeeThrough = 0.5f;  // transmittance from which distance is that of what lies behind
+constexpr float kNearest = 1e-3f;            // of the object's size: a surface through the very centre has no distance
+constexpr float kSurroundStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
+constexpr float kAtBounds = 1 - 1e-4f;  // of the way out of the bounds: what the object stands on is not in it
 
 }  // namespace
 
@@ -34,7 +34,7 @@ SurroundSight SurroundRays::look(const Vec3& direction, float farthest) {
     if (sight.valid == 0) return sight;
   }
   std::uint32_t last = ~0u;
-  for (int layer = 0; layer < kMaxLayers; ++layer) {
+  for (int layer = 0; layer < kMaxSurroundLayers; ++layer) {
     const Hit hit = accel_.intersect(ray);
     ++count_;
     if (!hit) return sight;
@@ -51,7 +51,7 @@ SurroundSight SurroundRays::look(const Vec3& direction, float farthest) {
     const bool all_known = view_ != SurroundView::kOutside || glm::length(p - centre_) >= bounds_end;
     if (sight.ended && all_known) return sight;
     last = hit.triangle;
-    ray.origin = p + direction * (kStep * max_component(glm::abs(p)) + 1e-6f * hit.distance);
+    ray.origin = p + direction * (kSurroundStep * max_component(glm::abs(p)) + 1e-6f * hit.distance);
   }
   if (!sight.ended) sight.valid = 0;  // nothing opaque within reason
   return sight;
@@ -88,7 +88,7 @@ void SurroundRays::meet(const Hit& hit, const Vec3& p, const Vec3& direction, Su
   const bool back = !hit.front && !material.double_sided;
   if (coverage > 0 && !back) sight.layers.push_back({hit, sight.throughput * coverage});
   sight.throughput *= through;
-  if (max_component(through) >= kSeeThrough) return;
+  if (max_component(through) >= kSurroundSeeThrough) return;
   sight.ended = true;
   sight.inverse_distance = 1 / std::max(glm::length(p - centre_), nearest_);
   sight.valid = back ? 0 : 1;

@@ -14,7 +14,7 @@ double arc_between(int rings, Rings which) {
 
 constexpr std::uint32_t kMinResolution = 16;
 
-struct Planner {
+struct EyePlanner {
   const Scene& scene;
   const std::vector<FoundReflector>& reflectors;
   const ViewOptions& options;
@@ -60,7 +60,7 @@ struct Fit {
   std::uint32_t views, divisor = 1;
 };
 
-Fit fit_memory(const Planner& planner, std::vector<std::string>& omitted) {
+Fit fit_memory(const EyePlanner& planner, std::vector<std::string>& omitted) {
   const ViewOptions& options = planner.options;
   Fit fit{planner.reflectors.size(), std::max(1u, options.views_per_element)};
   const std::uint64_t wanted = planner.total_bytes(fit.reflectors, fit.views, 1);
@@ -130,7 +130,7 @@ std::uint32_t resolution_for(float roughness) {
 }
 
 ViewPlan plan_views(const Scene& scene, std::vector<FoundReflector>& reflectors, const ViewOptions& options) {
-  Planner planner{.scene = scene, .reflectors = reflectors, .options = options, .elements = {}};
+  EyePlanner planner{.scene = scene, .reflectors = reflectors, .options = options, .elements = {}};
   for (FoundReflector& found : reflectors) {
     planner.elements.emplace_back();
     if (found.way == ReflectorWay::kGeometry) continue;

@@ -9,16 +9,16 @@ namespace {
 
 constexpr std::array<IVec2, 8> kNeighbours{IVec2{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}};
 
-struct Light {
+struct MeanLight {
   Vec3 irradiance{0}, direction{0};  // direction only where the page has it
 };
 
 // The mean light of those neighbours that `usable` accepts; false where there is none.
 template <class Usable>
-bool mean_of_neighbours(const LightmapPage& page, std::uint32_t texel, const Usable& usable, Light& mean) {
+bool mean_of_neighbours(const LightmapPage& page, std::uint32_t texel, const Usable& usable, MeanLight& mean) {
   const int width = static_cast<int>(page.width), height = static_cast<int>(page.height);
   const int x = static_cast<int>(texel) % width, y = static_cast<int>(texel) / width;
-  Light sum;
+  MeanLight sum;
   int count = 0;
   for (const IVec2& step : kNeighbours) {
     const int nx = x + step.x, ny = y + step.y;
@@ -39,12 +39,12 @@ bool mean_of_neighbours(const LightmapPage& page, std::uint32_t texel, const Usa
 template <class Usable, class Fill>
 void spread(LightmapPage& page, std::vector<std::uint32_t> pending, int rounds, const Usable& usable,
             const Fill& fill) {
-  std::vector<std::pair<std::uint32_t, Light>> found;
+  std::vector<std::pair<std::uint32_t, MeanLight>> found;
   for (int round = 0; round < rounds && !pending.empty(); ++round) {
     found.clear();
     std::vector<std::uint32_t> left;
     for (const std::uint32_t texel : pending) {
-      Light mean;
+      MeanLight mean;
       if (mean_of_neighbours(
               page, texel, [&](std::uint32_t n) { return usable(texel, n); }, mean))
         found.emplace_back(texel, mean);

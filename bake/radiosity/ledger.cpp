@@ -12,9 +12,10 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint64_t kRaysAParticle = 6, kLeast = 4096, kMost = 65536;  // about; particles of each kind of source
-constexpr std::size_t kRun = 64;                                           // particles or texels a task
-constexpr double kCertain = 3;                                             // standard errors
+constexpr std::uint64_t kRaysAParticle = 6, kLeastParticles = 4096,
+                        kMostParticles = 65536;  // about; particles of each kind of source
+constexpr std::size_t kItemsATask = 64;          // particles or texels a task
+constexpr double kCertain = 3;                   // standard errors
 
 // Sum and standard error of independent shares of it.
 class Sum {
@@ -72,9 +73,9 @@ Result<double> kept_by_lightmap(const Scene& scene, const ToldTexels& texels, co
   for (std::size_t p = 0; p < texels.map.size(); ++p) {
     const TexelMapPage& map = texels.map[p];
     const LightmapPage& page = radiosity.pages[p];
-    std::vector<double> kept((map.texel.size() + kRun - 1) / kRun);
+    std::vector<double> kept((map.texel.size() + kItemsATask - 1) / kItemsATask);
     ORIEL_TRY_VOID(parallel_for(context, "", kept.size(), [&](std::size_t run) {
-      for (std::size_t i = run * kRun; i < std::min(map.texel.size(), (run + 1) * kRun); ++i) {
+      for (std::size_t i = run * kItemsATask; i < std::min(map.texel.size(), (run + 1) * kItemsATask); ++i) {
         if (!texels.told[p][map.texel[i]]) continue;
         Sampler sampler(context.seed, p << 32u | i, 0);
         const Vec2 u = sampler.next2();
@@ -113,13 +114,13 @@ Result<Ledger> keep_ledger(const LightmapScene& scene, const Radiosity& radiosit
   if (sources.kinds().empty()) return ledger;
   ledger.lamps_lm = luminance(transport.lights.power());
   const std::uint64_t wanted = rays_at_most / (kRaysAParticle * sources.kinds().size());
-  std::vector<Fate> fates(std::bit_floor(std::clamp(wanted, kLeast, kMost)));
+  std::vector<Fate> fates(std::bit_floor(std::clamp(wanted, kLeastParticles, kMostParticles)));
   std::atomic<std::uint64_t> rays{0};
   for (const SourceKind kind : sources.kinds()) {
     const std::uint64_t stream = mix64(0x1ed6e4 + static_cast<std::uint64_t>(kind));
-    ORIEL_TRY_VOID(parallel_for({context, &rays}, "ledger", fates.size() / kRun, [&](std::size_t run) {
+    ORIEL_TRY_VOID(parallel_for({context, &rays}, "ledger", fates.size() / kItemsATask, [&](std::size_t run) {
       std::uint64_t traced = 0;
-      for (std::size_t i = run * kRun; i < (run + 1) * kRun; ++i) {
+      for (std::size_t i = run * kItemsATask; i < (run + 1) * kItemsATask; ++i) {
         Sampler sampler(context.seed, stream, static_cast<std::uint32_t>(i));
         const Particle particle = sources.emit(kind, sampler);
         fates[i] = follow(transport, texels, particle, sampler, traced);

@@ -11,15 +11,15 @@
 namespace oriel {
 namespace {
 
-constexpr double kTolerance = 0.1;       // texels between edges that count as one
-constexpr double kParallel = 0.95;       // cosine between edges
-constexpr float kSameNormal = 0.98481f;  // cos 10°: a step of the cosine that the light may show
-constexpr float kSameFace = 0.70711f;    // cos 45°: no chart bends more sharply
-constexpr double kPointsPerTexel = 3;    // along a seam
-constexpr double kInside = 1e-3;         // texels from the chart's border: on its own side of a texel's border
-constexpr float kLift = 0.1f;            // texels above the surface at which both sides must see each other
-constexpr double kSamePlace = 0.01;      // texels: not a seam, the two sides read the same texels
-constexpr std::size_t kRun = 256;        // edges a task
+constexpr double kTolerance = 0.1;        // texels between edges that count as one
+constexpr double kParallel = 0.95;        // cosine between edges
+constexpr float kSameNormal = 0.98481f;   // cos 10°: a step of the cosine that the light may show
+constexpr float kSameFace = 0.70711f;     // cos 45°: no chart bends more sharply
+constexpr double kPointsPerTexel = 3;     // along a seam
+constexpr double kInside = 1e-3;          // texels from the chart's border: on its own side of a texel's border
+constexpr float kLift = 0.1f;             // texels above the surface at which both sides must see each other
+constexpr double kSamePlace = 0.01;       // texels: not a seam, the two sides read the same texels
+constexpr std::size_t kEdgesATask = 256;  // edges a task
 
 // An edge of a triangle at the rim of its chart, from corner to the next, counter-clockwise.
 struct RimEdge {
@@ -265,11 +265,11 @@ class SeamFinder {
 Result<Seams> find_seams(const Transport& transport, const Atlas& atlas, std::span<const LightmapPage> pages,
                          const Stage& stage) {
   const SeamFinder finder(transport, atlas, pages, stage.context.seed);
-  const std::size_t count = finder.edge_count(), runs = (count + kRun - 1) / kRun;
+  const std::size_t count = finder.edge_count(), runs = (count + kEdgesATask - 1) / kEdgesATask;
   std::vector<Seams> found(runs);
   ORIEL_TRY_VOID(parallel_for(stage, "seams", runs, [&](std::size_t run) {
     std::uint64_t traced = 0;
-    found[run] = finder.find(run * kRun, std::min(count, (run + 1) * kRun), traced);
+    found[run] = finder.find(run * kEdgesATask, std::min(count, (run + 1) * kEdgesATask), traced);
     stage.count(traced);
   }));
   Seams seams;

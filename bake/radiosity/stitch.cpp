@@ -9,13 +9,13 @@ namespace oriel {
 namespace {
 
 constexpr double kStep = 0.005;  // relative: a step on a seam that weighs as much as a change of one standard error
-constexpr double kLeast = 0.01;  // relative error of any texel: it shows a mean over its square, not its centre
-constexpr double kFree = 0.2;    // relative error of a texel without surface
-constexpr double kDark = 0.01;   // of the mean light: what is darker counts as that
-constexpr int kAround = 2;       // texels to each side over which errors and their light are pooled
-constexpr double kOwn = 1;       // the largest change of a texel: of its standard error,
-constexpr double kPooled = 0.3;  // or, if more, of its light, as far as three times the errors around it go,
-constexpr double kSlack = 3;     // so many times kLeast beside, and twice kFree
+constexpr double kLeastError = 0.01;  // relative error of any texel: it shows a mean over its square, not its centre
+constexpr double kFree = 0.2;         // relative error of a texel without surface
+constexpr double kDark = 0.01;        // of the mean light: what is darker counts as that
+constexpr int kAround = 2;            // texels to each side over which errors and their light are pooled
+constexpr double kOwn = 1;            // the largest change of a texel: of its standard error,
+constexpr double kPooled = 0.3;       // or, if more, of its light, as far as three times the errors around it go,
+constexpr double kSlack = 3;          // so many times kLeastError beside, and twice kFree
 constexpr int kRounds = 4;
 constexpr double kRestraint = 0.6;  // of the freedom of texels, so many times at most, where they move by too much
 constexpr double kStrongest = 0.1;
@@ -259,7 +259,8 @@ class Stitcher {
     const double own = luminance(page.standard_error[t.texel]);
     const double noise = std::max(own, noise_around(t) * (brightness(DVec3(t.baked)) + dark_)) / t.scale();
     const double free = kFree * (1 - double{covered_[t.page][t.texel]});
-    return std::sqrt(noise * noise + std::pow((kLeast + free) * (brightness(DVec3(t.baked)) + dark_) / t.scale(), 2));
+    return std::sqrt(noise * noise +
+                     std::pow((kLeastError + free) * (brightness(DVec3(t.baked)) + dark_) / t.scale(), 2));
   }
 
   // In lux: what a texel may be off by without being seen to be.
@@ -268,7 +269,7 @@ class Stitcher {
     const double own = page.irradiance[t.texel][channel], error = page.standard_error[t.texel][channel];
     const double free = kFree * (1 - double{covered_[t.page][t.texel]});
     const double pooled = std::min(kSlack * noise_around(t) * own, kPooled * own);
-    return static_cast<float>(std::max(kOwn * error, pooled) + (kSlack * kLeast + 2 * free) * own);
+    return static_cast<float>(std::max(kOwn * error, pooled) + (kSlack * kLeastError + 2 * free) * own);
   }
 
   void fill_row(const Row& row, Eigen::Index r, Rows& jacobian, Columns& steps) const {

@@ -16,7 +16,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNobody = ~0u;
 constexpr std::uint32_t kShareRays = 4096, kProbeRays = 256;  // of a map, of a probe
 
 bool shines(const Material& material) {
@@ -37,13 +37,13 @@ std::vector<std::uint32_t> group_of_parts(const Scene& scene, const Mesh& mesh) 
 
 // Each shining material of one group: parts of others get copies.
 void divide_materials(const Scene& scene, Pack& pack) {
-  std::vector<std::uint32_t> owner(pack.materials.size(), kNone);
+  std::vector<std::uint32_t> owner(pack.materials.size(), kNobody);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;
   const std::vector<std::uint32_t> groups = group_of_parts(scene, pack.mesh);
   for (std::size_t p = 0; p < groups.size(); ++p) {
     std::uint32_t& material = pack.mesh.parts[p].material;
     if (!shines(pack.materials[material])) continue;
-    if (owner[material] == kNone) owner[material] = groups[p];
+    if (owner[material] == kNobody) owner[material] = groups[p];
     if (owner[material] == groups[p]) continue;
     const auto [at, added] = copies.try_emplace({material, groups[p]}, pack.materials.size());
     if (added) {
@@ -55,12 +55,12 @@ void divide_materials(const Scene& scene, Pack& pack) {
     material = at->second;
   }
   for (std::uint32_t m = 0; m < owner.size(); ++m)
-    if (owner[m] != kNone) pack.light_groups[owner[m]].materials.push_back(m);
+    if (owner[m] != kNobody) pack.light_groups[owner[m]].materials.push_back(m);
 }
 
-// Of the shining triangle that has most of these corners; kNone: none has two.
+// Of the shining triangle that has most of these corners; kNobody: none has two.
 std::uint32_t group_of_corners(const Scene& scene, std::span<const Vec3> corners) {
-  std::uint32_t group = kNone;
+  std::uint32_t group = kNobody;
   int most = 1;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const Surface& surface = scene.surfaces[scene.triangle_surface[t]];
@@ -70,10 +70,10 @@ std::uint32_t group_of_corners(const Scene& scene, std::span<const Vec3> corners
       same += std::ranges::find(corners, scene.positions[scene.triangles[t][k]]) != corners.end() ? 1 : 0;
     if (same > most) most = same, group = surface.light_group;
   }
-  if (group != kNone) return group;
+  if (group != kNobody) return group;
   std::uint32_t light = sun_of_corners(scene, {corners.begin(), corners.end()});
   if (light == ~0u) light = punctual_of_corners(scene, corners);
-  return light == ~0u ? kNone : scene.lights[light].light_group;
+  return light == ~0u ? kNobody : scene.lights[light].light_group;
 }
 
 std::uint32_t group_of(const Scene& scene, const BrightLight& light) {
@@ -82,7 +82,7 @@ std::uint32_t group_of(const Scene& scene, const BrightLight& light) {
     if (other.name == light.name && other.intensity == light.intensity && other.direction == light.direction &&
         (light.kind == BrightLightKind::kDirectional || other.position == light.position))
       return other.light_group;
-  return kNone;
+  return kNobody;
 }
 
 // What one place sees of each group's light: its share of the radiance that comes from all directions above a normal,
@@ -202,7 +202,7 @@ void assemble_light_groups(const BakedScene& baked, const std::vector<std::vecto
     added.rest = motion.rest, added.keys = motion.keys;
   }
   const auto own = [&](std::uint32_t group, std::vector<std::uint32_t> LightGroup::*list, std::size_t index) {
-    if (group != kNone) (pack.light_groups[group].*list).push_back(static_cast<std::uint32_t>(index));
+    if (group != kNobody) (pack.light_groups[group].*list).push_back(static_cast<std::uint32_t>(index));
   };
   divide_materials(scene, pack);
   for (std::size_t e = 0; e < pack.emitters.size(); ++e)

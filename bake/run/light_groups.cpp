@@ -2,20 +2,20 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
 #include "formats/core/check.h"
 #include "formats/core/color.h"
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 #include "formats/query/day_hours.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNoGroup = ~0u;
 
 // A node that shines, or the sky.
 struct Lamp {
@@ -23,7 +23,7 @@ struct Lamp {
   std::vector<std::uint32_t> surfaces, lights;
   bool sky = false;
   std::int32_t motion = -1;
-  std::uint32_t group = kNone;
+  std::uint32_t group = kNoGroup;
 };
 
 bool shines(const Scene& scene, const Surface& surface) {
@@ -107,7 +107,7 @@ class Groups {
         for (Lamp& lamp : lamps_) {
           if (!matches(pattern, lamp)) continue;
           any = true;
-          if (lamp.group != kNone && lamp.group != number)
+          if (lamp.group != kNoGroup && lamp.group != number)
             return fail(ErrorCode::kUsage, options.file,
                         "found the lamp \"{}\" in \"{}\" and in \"{}\", expected it in one group", lamp.path,
                         names_[lamp.group], name);
@@ -157,10 +157,10 @@ class Groups {
         if (lamp.motion != m) with_others.insert(lamp.group);
       std::optional<std::uint32_t> own;
       for (Lamp& lamp : lamps_) {
-        if (lamp.motion != m || (lamp.group != kNone && !with_others.contains(lamp.group))) continue;
+        if (lamp.motion != m || (lamp.group != kNoGroup && !with_others.contains(lamp.group))) continue;
         if (!own && made == kMostMotions) continue;
         const std::string& name = scene_.lamp_motions[static_cast<std::size_t>(m)].name;
-        if (lamp.group != kNone)
+        if (lamp.group != kNoGroup)
           context.warning(
               fmt::format("the lamp \"{}\" is animated: it leaves the group \"{}\", which is not, for one of "
                           "its own",
@@ -180,10 +180,10 @@ class Groups {
                       "are switched together, as \"{}\"; --light-groups FILE chooses",
                       names_.size(), kMostLightGroups, names_[rest], kOtherLamps));
       for (Lamp& lamp : lamps_)
-        if (lamp.group >= rest) lamp.group = kNone;
+        if (lamp.group >= rest) lamp.group = kNoGroup;
       names_.resize(rest);
     }
-    if (std::ranges::any_of(lamps_, [](const Lamp& lamp) { return lamp.group == kNone; })) group(kOtherLamps);
+    if (std::ranges::any_of(lamps_, [](const Lamp& lamp) { return lamp.group == kNoGroup; })) group(kOtherLamps);
     scene_.light_groups.clear();
     for (const std::string& name : names_) scene_.light_groups.push_back({name, {}});
     for (const DayHour& hour : scene_.day.hours)
@@ -193,7 +193,7 @@ class Groups {
       if (light.hour >= 0) light.light_group = scene_.day.hours[static_cast<std::size_t>(light.hour)].group;
     const auto last = static_cast<std::uint32_t>(names_.size() - 1);
     for (const Lamp& lamp : lamps_) {
-      const std::uint32_t number = lamp.group == kNone ? last : lamp.group;
+      const std::uint32_t number = lamp.group == kNoGroup ? last : lamp.group;
       scene_.light_groups[number].lamps.push_back(lamp.path.empty() ? lamp.name : lamp.path);
       for (const std::uint32_t s : lamp.surfaces) scene_.surfaces[s].light_group = number;
       for (const std::uint32_t l : lamp.lights) scene_.lights[l].light_group = number;
@@ -205,7 +205,8 @@ class Groups {
   void find_motions(Context& context) {
     if (names_.empty()) return;
     std::vector<std::set<std::int32_t>> motions(scene_.light_groups.size());
-    for (const Lamp& lamp : lamps_) motions[lamp.group == kNone ? motions.size() - 1 : lamp.group].insert(lamp.motion);
+    for (const Lamp& lamp : lamps_)
+      motions[lamp.group == kNoGroup ? motions.size() - 1 : lamp.group].insert(lamp.motion);
     for (std::size_t g = 0; g < motions.size(); ++g) {
       if (motions[g].size() == 1)
         scene_.light_groups[g].motion = *motions[g].begin();
@@ -239,10 +240,8 @@ class Groups {
 };
 
 Result<LightGroupOptions> read_groups(const std::string& file) {
-  using Json = nlohmann::ordered_json;
   ORIEL_TRY(const Bytes bytes, read_file(file));
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  const Json json = Json::parse(text, text + bytes.size(), nullptr, false);
+  const Json json = Json::parse(bytes).value_or(Json());
   const char* expected = "expected {\"group\": [\"node\", …], …}";
   if (!json.is_object()) return invalid(file, "found no JSON object, {}", expected);
   LightGroupOptions options{LightGrouping::kNamed, file, {}};

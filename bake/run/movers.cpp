@@ -38,7 +38,7 @@ void warn_about(const MoverReport& r, Context& context) {
                     100 * r.compression_error, 32));
 }
 
-class Box {
+class MoverBox {
  public:
   void add(const Vec3& p) {
     box_.lower = empty_ ? p : glm::min(box_.lower, p);
@@ -54,7 +54,7 @@ class Box {
 };
 
 FieldBox field_box(const Scene& scene, std::span<const WalkGrid> grids, std::span<const TakenMover> taken) {
-  Box box;
+  MoverBox box;
   for (const WalkGrid& grid : grids)
     for (std::size_t cell = 0; cell < grid.floor_y.size(); ++cell) {
       if (!grid.walkable(cell)) continue;

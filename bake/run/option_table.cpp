@@ -1,17 +1,14 @@
 #include "bake/run/option_table.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bake/jobs/memory.h"
 #include "bake/run/method.h"
 #include "bake/run/option_values.h"
 #include "bake/trace/virtual_lights.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char *kLightmap = "Lightmap", *kLight = "Light", *kReflections = "Reflections", *kMovers = "Movers",
                      *kScene = "Scene";
@@ -27,9 +24,8 @@ std::vector<Option> atlas_options(BakeOptions& o) {
       {"--atlas", kLightmap,
        "Where lightmap coordinates come from: auto (charts of our own) or uv1 (the artist's "
        "TEXCOORD_1, where overlaps are an error)",
-       choice(o.atlas.source,
-              Names<AtlasOptions::Source>{{"auto", AtlasOptions::Source::kAuto}, {"uv1", AtlasOptions::Source::kUv1}}),
-       Use::kRare, "atlas", "atlas.md"},
+       choice(o.atlas.source, {{"auto", AtlasOptions::Source::kAuto}, {"uv1", AtlasOptions::Source::kUv1}}), Use::kRare,
+       "atlas", "atlas.md"},
       {"--resolution", kLightmap,
        "Side of the lightmap page in texels. With --atlas uv1 it is the page that the coordinates are meant for; with "
        "auto, everything shall fit on one such page",
@@ -60,14 +56,9 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "pixels where they would take half of it. With --error, whichever comes first. The pack then depends on the "
        "machine",
        quantity(o.time_s, "TIME", parse_duration, time_text), Use::kEveryday, "time_s", "plan.md#time"},
-      {"--samples",
-       kLightmap,
-       "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two",
-       samples(o),
-       Use::kRare,
-       "samples",
-       {},
-       {"--error"}},
+      {"--samples", kLightmap,
+       "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two", samples(o),
+       Use::kRare, "samples", "", "--error"},
       {"--verify", kLightmap,
        "After the lightmap, measure its error on held-out pixels by unbiased paths: with so many of the bake's rays, "
        "or off. What misses --error by a tenth is refined",
@@ -75,8 +66,8 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
       {"--estimator", kLightmap,
        "How light is computed: cached (bounces kept in the lightmap, one final gather, filtered: some hundred times "
        "less work) or reference (unbiased paths from every texel, to check the other against)",
-       choice(r.estimator, Names<Estimator>{{"cached", Estimator::kCached}, {"reference", Estimator::kReference}}),
-       Use::kRare, "estimator", "radiosity.md"},
+       choice(r.estimator, {{"cached", Estimator::kCached}, {"reference", Estimator::kReference}}), Use::kRare,
+       "estimator", "radiosity.md"},
       {"--reuse-error", kLightmap,
        "After an edit of the scene: keep the light and the radiance maps of the last whole bake in the cache, with "
        "these options, where the edit changes them by no more than that, relative. The error that this brings is "
@@ -108,8 +99,7 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
       {"--directional", kLightmap,
        "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material has a "
        "normal map), on, off. Costs a tenth more variance and about 4 bytes a texel",
-       choice(o.directional,
-              Names<Directional>{{"auto", Directional::kAuto}, {"on", Directional::kOn}, {"off", Directional::kOff}}),
+       choice(o.directional, {{"auto", Directional::kAuto}, {"on", Directional::kOn}, {"off", Directional::kOff}}),
        Use::kRare, "directional", "conventions.md#directional-lightmaps"},
   };
 }
@@ -120,22 +110,16 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        "How planar reflectors show the scene: auto (each by the way whose frames are cheaper), geometry (the player "
        "draws the mirrored scene: nothing is baked for them), maps (radiance maps). --views, --map-resolution and "
        "--map-price mean maps",
-       choice(o.ways,
-              Names<WaysWanted>{
-                  {"auto", WaysWanted::kAuto}, {"geometry", WaysWanted::kGeometry}, {"maps", WaysWanted::kMaps}}),
+       choice(o.ways, {{"auto", WaysWanted::kAuto}, {"geometry", WaysWanted::kGeometry}, {"maps", WaysWanted::kMaps}}),
        Use::kEveryday, "reflections", "reflections.md#geometry-or-maps"},
       {"--target", kReflections, "What frames will be drawn on, which decides what is cheaper: cpu, gpu",
-       choice(o.target, Names<DrawnOn>{{"cpu", DrawnOn::kCpu}, {"gpu", DrawnOn::kGpu}}), Use::kRare, "target",
+       choice(o.target, {{"cpu", DrawnOn::kCpu}, {"gpu", DrawnOn::kGpu}}), Use::kRare, "target",
        "reflections.md#geometry-or-maps"},
-      {"--views",
-       kReflections,
+      {"--views", kReflections,
        "Viewpoints of radiance maps. planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "
        "element: "
        "those that show most of what eyes see in it. hemisphere:N are spread evenly, as published",
-       views(o),
-       Use::kEveryday,
-       {},
-       "reflections.md"},
+       views(o), Use::kEveryday, "", "reflections.md"},
       {"--memory", kReflections,
        "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it",
        both(o, quantity(o.views.memory_bytes, "SIZE", parse_bytes, bytes_text), o.views.memory_bytes,
@@ -148,14 +132,10 @@ std::vector<Option> reflection_options(BakeOptions& o) {
       {"--max-reflectors", kReflections,
        "Planar reflectors that get radiance maps, the most visible first; each costs memory and frame time",
        number(o.reflectors.max_reflectors, 0, 4096), Use::kRare, "max_reflectors"},
-      {"--eyes",
-       kReflections,
+      {"--eyes", kReflections,
        "Whose views texels and reflections are made for: walk (people on the floors that the cameras can walk to), box "
        "(anywhere in the scene), or a file with lines of x y z",
-       eyes(o),
-       Use::kRare,
-       {},
-       "reflections.md#which-viewpoints"},
+       eyes(o), Use::kRare, "", "reflections.md#which-viewpoints"},
       {"--eye-height", kReflections,
        "How high people's eyes are over the floor, with which their steps, width and reach go. auto: 1.6 m, unless the "
        "scene's cameras or a guessed unit tell of larger or smaller people",
@@ -164,9 +144,8 @@ std::vector<Option> reflection_options(BakeOptions& o) {
       {"--pvs", kReflections,
        "Find out which triangles can be seen from where people walk, so that the player draws no others: auto (in "
        "scenes of 500 000 triangles and more, where it leaves out a quarter), on, off",
-       choice(o.visible_sets, Names<VisibleSetsWanted>{{"auto", VisibleSetsWanted::kAuto},
-                                                       {"on", VisibleSetsWanted::kOn},
-                                                       {"off", VisibleSetsWanted::kOff}}),
+       choice(o.visible_sets,
+              {{"auto", VisibleSetsWanted::kAuto}, {"on", VisibleSetsWanted::kOn}, {"off", VisibleSetsWanted::kOff}}),
        Use::kRare, "visible_sets", "visibility.md"},
       {"--orders", kReflections,
        "Mirrors that a reflection goes by: 1 shows a mirror in a mirror as its diffuse light only",
@@ -224,44 +203,20 @@ std::vector<Option> light_options(ImportOptions& import) {
        "The sky: radiance in cd/m² all around (one value, or R,G,B), or an HDRI: a latitude-longitude .hdr or .exr "
        "whose centre is +X and whose right is +Z, as in Blender",
        sky(import), Use::kEveryday},
-      {"--day",
-       kLight,
+      {"--day", kLight,
        "Sun and sky of a day and place, instead of a sky: date, degrees north and east, and where north is, degrees "
        "clockwise from -Z as seen from above. Each of --hours is a light group, which oriel-play --hour shows",
-       day(import),
-       Use::kEveryday,
-       "day",
-       "lights.md#sun-and-sky-by-the-hour",
-       {"--sky"}},
-      {"--hours",
-       kLight,
+       day(import), Use::kEveryday, "day", "lights.md#sun-and-sky-by-the-hour", "--sky"},
+      {"--hours", kLight,
        "Of --day: from, to and step in hours of solar time (12: the sun is in the meridian), or of a clock that is so "
        "far ahead of UTC, as 8-18/1+02:00; one hour alone as 14.5",
-       hours(import),
-       Use::kEveryday,
-       "hours",
-       "lights.md#sun-and-sky-by-the-hour",
-       {},
-       "--day"},
-      {"--sky-type",
-       kLight,
+       hours(import), Use::kEveryday, "hours", "lights.md#sun-and-sky-by-the-hour", "", "--day"},
+      {"--sky-type", kLight,
        "Of --day: 1 to 15 of ISO 15469 (CIE S 011), 1 to 5 being overcast, 6 to 10 partly cloudy, 11 to 15 clear; 16: "
        "the traditional overcast sky",
-       number(import.day.sky_type, 1, 16),
-       Use::kRare,
-       "sky_type",
-       "lights.md#sun-and-sky-by-the-hour",
-       {},
-       "--day"},
-      {"--ground",
-       kLight,
-       "Of --day: reflectance of the level ground that lies below the horizon",
-       number(import.day.ground, 0, 1),
-       Use::kRare,
-       "ground",
-       "lights.md#sun-and-sky-by-the-hour",
-       {},
-       "--day"},
+       number(import.day.sky_type, 1, 16), Use::kRare, "sky_type", "lights.md#sun-and-sky-by-the-hour", "", "--day"},
+      {"--ground", kLight, "Of --day: reflectance of the level ground that lies below the horizon",
+       number(import.day.ground, 0, 1), Use::kRare, "ground", "lights.md#sun-and-sky-by-the-hour", "", "--day"},
       {"--sky-scale", kLight, "Radiance in cd/m² of a 1 in the sky's file", number(import.sky_scale, 0, 1e30),
        Use::kRare, "sky_scale"},
       {"--sky-rotation", kLight, "Turns the sky's file, counter-clockwise seen from above, degrees",
@@ -386,7 +341,7 @@ std::string options_json(const BakeOptions& options, std::uint64_t seed) {
                {"min_reflector_area_m2", o.reflectors.min_area_m2},
                {"element_m", planned ? o.planned.element_m : o.views.element_m},
                {"transfer_samples", o.transfer.samples}});
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may hold any bytes
+  return json.dump();  // names may hold any bytes
 }
 
 }  // namespace oriel

@@ -5,11 +5,6 @@
 #include "formats/core/text.h"
 
 namespace oriel {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-}  // namespace
 
 std::string share_text(double share) {
   return share > 0 ? fmt::format("{:.6g}%", 100 * share) : "";
@@ -77,8 +72,7 @@ OptionValue texel_means(BakeOptions& o) {
 
 OptionValue detail_steps(BakeOptions& o) {
   OptionValue value =
-      choice(o.radiosity.detail,
-             Names<std::uint32_t>{{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", kMostDetail}});
+      choice(o.radiosity.detail, {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", kMostDetail}});
   value.json = json_of(o.radiosity.detail);
   return value;
 }
@@ -181,7 +175,7 @@ OptionValue hours(ImportOptions& o) {
 }
 
 OptionValue moves(std::vector<MoverMove>& moves) {
-  OptionValue value = each(moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); });
+  OptionValue value = each(moves, "NODE=x,y,z[,yaw]", parse_move, text_of);
   value.json = [&moves] {
     Json all = Json::array();
     for (const MoverMove& move : moves) all.push_back(text_of(move));
@@ -202,7 +196,7 @@ OptionValue profiles(ImportOptions& o) {
 }
 
 OptionValue self_shadow(BakeOptions& o) {
-  OptionValue value = choice(o.transfer.shadowed, Names<bool>{{"shadowed", true}, {"unshadowed", false}});
+  OptionValue value = choice(o.transfer.shadowed, {{"shadowed", true}, {"unshadowed", false}});
   value.json = [&o] { return Json(o.transfer.shadowed); };
   return value;
 }
@@ -228,8 +222,8 @@ OptionValue light_groups(BakeOptions& o) {
 }
 
 OptionValue unit(double& unit_m, bool& guess) {
-  OptionValue value = choice(
-      unit_m, Names<double>{{"mm", 0.001}, {"cm", 0.01}, {"in", 0.0254}, {"ft", 0.3048}, {"m", 1}, {"km", 1000}});
+  OptionValue value =
+      choice(unit_m, {{"mm", 0.001}, {"cm", 0.01}, {"in", 0.0254}, {"ft", 0.3048}, {"m", 1}, {"km", 1000}});
   value.json = json_of(unit_m);
   const std::string type = value.type;
   return or_auto(guess, type, std::move(value));

@@ -1,11 +1,11 @@
 // How the options of a bake are read and written: one function for each that is more than a number or a name.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "bake/run/options.h"
 #include "formats/cli/option.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 
@@ -44,7 +44,7 @@ OptionValue both(const BakeOptions& o, OptionValue value, const T& spread, T& pl
     planned = spread;
     return {};
   };
-  value.json = [&] { return nlohmann::ordered_json(o.view_scheme == ViewScheme::kPlanned ? planned : spread); };
+  value.json = [&] { return Json(o.view_scheme == ViewScheme::kPlanned ? planned : spread); };
   return value;
 }
 

@@ -8,6 +8,13 @@
 #include "formats/core/text.h"
 
 namespace oriel {
+
+BakeOptions::BakeOptions() = default;
+BakeOptions::~BakeOptions() = default;
+BakeOptions::BakeOptions(const BakeOptions&) = default;
+BakeOptions::BakeOptions(BakeOptions&&) noexcept = default;
+BakeOptions& BakeOptions::operator=(const BakeOptions&) = default;
+BakeOptions& BakeOptions::operator=(BakeOptions&&) noexcept = default;
 Result<float> parse_length(const std::string& text) {
   static constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000}};
   ORIEL_TRY(const double metres, parse_quantity(text, kUnits, "length", "10cm, 0.1m or 100mm"));

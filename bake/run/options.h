@@ -37,6 +37,14 @@ enum class VisibleSetsWanted { kAuto, kOn, kOff };
 inline constexpr double kBestError = 1e-3;  // where only time limits the work
 
 struct BakeOptions {
+  // In options.cpp, so that not every file compiles them.
+  BakeOptions();
+  ~BakeOptions();
+  BakeOptions(const BakeOptions&);
+  BakeOptions(BakeOptions&&) noexcept;
+  BakeOptions& operator=(const BakeOptions&);
+  BakeOptions& operator=(BakeOptions&&) noexcept;
+
   std::filesystem::path scene;   // .glb or .gltf
   std::filesystem::path output;  // .oriel
   ImportOptions import;

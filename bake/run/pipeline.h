@@ -15,6 +15,14 @@ namespace oriel {
 inline constexpr ErrorCode kIncomplete{6};  // the exit code of a pack that is less than what was asked for
 
 struct BakeResult {
+  // In report.cpp, so that not every file compiles them.
+  BakeResult();
+  ~BakeResult();
+  BakeResult(const BakeResult&);
+  BakeResult(BakeResult&&) noexcept;
+  BakeResult& operator=(const BakeResult&);
+  BakeResult& operator=(BakeResult&&) noexcept;
+
   Pack pack;
   std::vector<StageTime> times;  // wall clock; not in the pack, whose bytes depend on input and options only
   RadiosityReport radiosity;

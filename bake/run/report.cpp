@@ -1,16 +1,14 @@
 #include "bake/run/report.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bake/radiosity/texels/frame_error.h"
 #include "bake/run/option_table.h"
+#include "bake/run/pipeline.h"
 #include "bake/run/version.h"
 #include "formats/core/half.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json rgb(const Vec3& v) {
   return {v.r, v.g, v.b};
@@ -21,7 +19,7 @@ Json rgb(const DVec3& v) {
 
 // Names come from files and may hold any bytes.
 std::string text_of(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return json.dump(2);
 }
 
 Json detail_json(const DetailReport& r) {
@@ -285,6 +283,13 @@ const char* text_of(Start start) {
 
 }  // namespace
 
+BakeResult::BakeResult() = default;
+BakeResult::~BakeResult() = default;
+BakeResult::BakeResult(const BakeResult&) = default;
+BakeResult::BakeResult(BakeResult&&) noexcept = default;
+BakeResult& BakeResult::operator=(const BakeResult&) = default;
+BakeResult& BakeResult::operator=(BakeResult&&) noexcept = default;
+
 static Json vertices_json(const std::optional<VertexLightReport>& r) {
   if (!r) return nullptr;
   return {{"error_asked", r->asked},
@@ -357,7 +362,7 @@ std::string provenance_json(const BakeOptions& options, std::uint64_t seed,
   for (const auto& [name, hash] : inputs) files.push_back({{"name", name}, {"xxh3_128", hash}});
   const Json json = {{"tool", "oriel-bake"},
                      {"version", kVersion},
-                     {"options", Json::parse(options_json(options, seed))},
+                     {"options", Json::parse(options_json(options, seed)).value()},
                      {"inputs", files}};
   return text_of(json);
 }
@@ -369,8 +374,8 @@ std::string report_json(const BakeResult& result) {
                      {"seconds", t.seconds},
                      {"rays", t.rays},
                      {"rays_per_s", t.seconds > 0 ? static_cast<double>(t.rays) / t.seconds : 0}});
-  const Json json = {{"provenance", Json::parse(result.pack.provenance)},
-                     {"plan", Json::parse(result.pack.plan)},
+  const Json json = {{"provenance", Json::parse(result.pack.provenance).value()},
+                     {"plan", Json::parse(result.pack.plan).value()},
                      {"stages", times},
                      {"units",
                       {{"reused", result.units.reused},

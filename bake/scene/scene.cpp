@@ -11,6 +11,13 @@ DVec3 doubled_area_vector(const Scene& scene, std::uint32_t triangle) {
 
 }  // namespace
 
+Scene::Scene() = default;
+Scene::~Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
 Vec3 geometric_normal(const Scene& scene, std::uint32_t triangle) {
   if (triangle < scene.face_normals.size()) return scene.face_normals[triangle];
   const DVec3 cross = doubled_area_vector(scene, triangle);

@@ -155,6 +155,14 @@ struct SkyParts {
 // All surfaces flattened into world-oriented triangles. Scene space is metres relative to `origin`, so that floats stay
 // precise far from the world's origin. Vertex arrays have the same length.
 struct Scene {
+  // In scene.cpp, so that not every file compiles them.
+  Scene();
+  ~Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+
   DVec3 origin{0};          // world position, metres, of scene space's zero: the centre of the bounds
   Vec3 lower{0}, upper{0};  // bounds, scene space
   std::vector<Vec3> positions;

@@ -29,7 +29,7 @@ struct Group {
 };
 
 // What Embree reads as long as its scene lives.
-struct Shape {
+struct SharedShape {
   std::vector<Vec3> positions;
   Group groups[4];
 };
@@ -46,7 +46,7 @@ struct Accel::Impl {
   DroppedSamples dropped;
   const Scene* scene = nullptr;
   float scale = 1;  // Embree's units per metre: a power of two, so that scaling is exact
-  std::shared_ptr<Shape> shape = std::make_shared<Shape>();
+  std::shared_ptr<SharedShape> shape = std::make_shared<SharedShape>();
   bool any_transmitting = false;  // solid glass too
   RTCDevice device = nullptr;
   RTCScene rtc_scene = nullptr;

@@ -9,7 +9,7 @@
 namespace oriel {
 namespace {
 
-constexpr double kInPlane = 1e-6;  // of the scene's size
+constexpr double kThickness = 1e-6;  // of the scene's size
 
 // A light's image: where it seems to be, and through what it is seen.
 struct Image {
@@ -106,7 +106,7 @@ class Finder {
     if (!image.hull.empty()) {
       const PlanarMirror& last = mirrors_[image.light.mirror[image.light.order - 1]];
       // What lies behind the last mirror, or in its plane, is not reached.
-      hull = cut(hull, last.normal, last.offset + kInPlane * double{scene_.radius()});
+      hull = cut(hull, last.normal, last.offset + kThickness * double{scene_.radius()});
     }
     const double wide = 2 * double{scene_.radius()} * image.light.spread;
     for (const VirtualLight::Side& side : image.light.sides)
@@ -117,7 +117,7 @@ class Finder {
   // By the edges of what of the last mirror the light reaches.
   void bound(Image& image) const {
     image.light.sides.clear();
-    image.light.spread = kInPlane + std::sin(double{scene_.lights[image.light.light].angular_radius_rad});
+    image.light.spread = kThickness + std::sin(double{scene_.lights[image.light.light].angular_radius_rad});
     const DVec3 middle = image.light.middle = centre_of(image.hull);
     image.light.extent_m = 0;
     for (std::size_t i = 0; i < image.hull.size(); ++i) {
@@ -127,7 +127,7 @@ class Finder {
                                            : glm::cross(a - image.position, b - image.position);
       const double size = glm::length(n);
       // What cutting left of an edge does not tell where it runs; without it the volume is only wider.
-      if (!(size > 0) || glm::distance(a, b) < kInPlane * double{scene_.radius()}) continue;
+      if (!(size > 0) || glm::distance(a, b) < kThickness * double{scene_.radius()}) continue;
       n *= (glm::dot(n, middle - a) < 0 ? -1 : 1) / size;
       image.light.sides.push_back({n, glm::dot(n, a)});
     }

@@ -43,13 +43,13 @@ double distance(const Nodes& nodes, const LobeFit& fit) {
 
 // A lobe around an axis in the plane of incidence, tilt off the normal: widths (tangents) in that plane and across it,
 // and how the first shears with height. What Heitz et al. fit, and the axis besides.
-using Shape = std::array<double, 4>;
+using LobeShape = std::array<double, 4>;
 
 // As steps from a first guess, so that all four are of one size.
 struct Guess {
   double tilt, along, across;
 
-  LobeFit fit(const Shape& p) const {
+  LobeFit fit(const LobeShape& p) const {
     const double angle = tilt + p[0] * along, a = along * std::exp(p[1]), b = across * std::exp(p[2]), s = p[3] * a;
     const double c = std::cos(angle), sine = std::sin(angle);
     LobeFit fit;  // the inverse of (axes) · ((a, 0, s), (0, b, 0), (0, 0, 1)), over its last element
@@ -60,7 +60,7 @@ struct Guess {
     return fit;
   }
   // Axes on or below the horizon have no such matrix; a lobe far narrower than the guess could hide between nodes.
-  bool allows(const Shape& p) const {
+  bool allows(const LobeShape& p) const {
     constexpr double kHighest = kPiD / 2 - 1e-6, kMostChange = 2.5;
     return std::abs(tilt + p[0] * along) < kHighest && std::abs(p[1]) < kMostChange && std::abs(p[2]) < kMostChange &&
            fit(p).m11 >= 0;
@@ -69,16 +69,16 @@ struct Guess {
 
 // Nelder and Mead 1965, with their coefficients.
 template <class Cost>
-Shape simplex_minimum(const Cost& cost, const Shape& start, double step) {
+LobeShape simplex_minimum(const Cost& cost, const LobeShape& start, double step) {
   constexpr int kSteps = 150;
   constexpr double kFlat = 1e-5;  // of the cost: far below what the quadrature knows
   struct Corner {
     double cost;
-    Shape at;
+    LobeShape at;
   };
   std::array<Corner, 5> corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    Shape at = start;
+    LobeShape at = start;
     if (i > 0) at[i - 1] += step;
     corners[i] = {cost(at), at};
   }
@@ -87,7 +87,7 @@ Shape simplex_minimum(const Cost& cost, const Shape& start, double step) {
   };
   order();
   for (int n = 0; n < kSteps && corners[4].cost - corners[0].cost > kFlat; ++n, order()) {
-    Shape centre{};
+    LobeShape centre{};
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 4; ++k) centre[k] += corners[i].at[k] / 4;
     const auto beyond = [&](double t) {
@@ -123,11 +123,11 @@ LobeFit fit_lobe(const LobeFunction& lobe, double alpha, double cos_theta) {
   // proportion to their cosine to the eye, which at grazing angles their own slope keeps up.
   const double theta = std::min(std::acos(std::min(cos_theta, 1.0)), kPiD / 2 - 1e-3), width = 2 * alpha;
   const Guess guess{theta, width, width * std::min(1.0, cos_theta + alpha)};
-  const auto cost = [&](const Shape& p) {
+  const auto cost = [&](const LobeShape& p) {
     return guess.allows(p) ? distance(nodes, guess.fit(p)) : std::numeric_limits<double>::max();
   };
   // Twice: a simplex that has become thin starts anew.
-  const Shape first = simplex_minimum(cost, Shape{}, -0.2);
+  const LobeShape first = simplex_minimum(cost, LobeShape{}, -0.2);
   LobeFit fit = guess.fit(simplex_minimum(cost, first, 0.1));
   fit.amplitude = static_cast<float>(std::clamp(nodes.albedo, 0.0, 1.0));
   return fit;

@@ -14,7 +14,7 @@ using Matrix = Eigen::MatrixXf;
 using Vector = Eigen::VectorXf;
 
 constexpr int kRounds = 12;
-constexpr Eigen::Index kBlock = 512;  // vertices a task
+constexpr Eigen::Index kVerticesACompressTask = 512;  // vertices a task
 
 struct Cluster {
   Vector mean;
@@ -91,10 +91,10 @@ class Clustering {
   // To the cluster whose mean and components fit best; whether any vertex moved.
   Result<bool> assign() {
     std::atomic<bool> moved{false};
-    const auto blocks = static_cast<std::size_t>((data_.cols() + kBlock - 1) / kBlock);
+    const auto blocks = static_cast<std::size_t>((data_.cols() + kVerticesACompressTask - 1) / kVerticesACompressTask);
     ORIEL_TRY_VOID(parallel_for(context_, "", blocks, [&](std::size_t block) {
-      const auto begin = static_cast<Eigen::Index>(block) * kBlock;
-      for (Eigen::Index v = begin; v < std::min(data_.cols(), begin + kBlock); ++v) {
+      const auto begin = static_cast<Eigen::Index>(block) * kVerticesACompressTask;
+      for (Eigen::Index v = begin; v < std::min(data_.cols(), begin + kVerticesACompressTask); ++v) {
         std::size_t best = 0;
         float least = std::numeric_limits<float>::max();
         for (std::size_t c = 0; c < clusters_.size(); ++c) {

@@ -13,8 +13,8 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // vertices a task
-constexpr int kMaxLayers = 16;      // of surfaces that a ray passes
+constexpr std::size_t kVerticesATask = 64;  // vertices a task
+constexpr int kMaxTransferLayers = 16;      // of surfaces that a ray passes
 
 // Half a vertex's rays each, so that their difference tells the error.
 struct Halves {
@@ -38,7 +38,7 @@ class VertexRays {
   std::optional<Blocker> trace(const Vec3& direction, Vec3& passed, std::uint64_t& rays) const {
     Ray ray{offset_origin(position_, normal_, magnitude_), direction};
     passed = Vec3(1);
-    for (int layer = 0; layer < kMaxLayers; ++layer) {
+    for (int layer = 0; layer < kMaxTransferLayers; ++layer) {
       const Hit hit = object_.intersect(ray);
       ++rays;
       if (!hit) return {};
@@ -134,19 +134,20 @@ class TransferBake {
   Status pass(const char* stage, std::uint32_t samples, int bounce, const VertexTransfer* last) {
     samples = std::bit_floor(samples);
     const ShiftedNet net(mix64(stage_.context.seed + static_cast<std::uint64_t>(bounce)), samples);
-    const std::size_t vertices = scene_.positions.size(), blocks = (vertices + kBlock - 1) / kBlock;
+    const std::size_t vertices = scene_.positions.size(), blocks = (vertices + kVerticesATask - 1) / kVerticesATask;
     std::vector<DVec2> errors(blocks);  // Σ squared differences of the halves, Σ squares
-    const auto end = [&](std::size_t block) { return std::min(vertices, (block + 1) * kBlock); };
-    UnitLoop loop{.stage = stage, .count = blocks, .rays = static_cast<double>(kBlock) * samples};
+    const auto end = [&](std::size_t block) { return std::min(vertices, (block + 1) * kVerticesATask); };
+    UnitLoop loop{.stage = stage, .count = blocks, .rays = static_cast<double>(kVerticesATask) * samples};
     loop.inputs = [&](std::size_t block, Archive& key) { key(bounce, block); };
     loop.compute = [&](std::size_t block) {
       std::uint64_t rays = 0;
-      for (std::size_t v = block * kBlock; v < end(block); ++v)
+      for (std::size_t v = block * kVerticesATask; v < end(block); ++v)
         errors[block] += vertex(static_cast<std::uint32_t>(v), net, samples, last, rays);
       return rays;
     };
     loop.results = [&](std::size_t block, Archive& archive) {
-      const std::size_t first = block * kBlock * out_.stride(), count = (end(block) - block * kBlock) * out_.stride();
+      const std::size_t first = block * kVerticesATask * out_.stride(),
+                        count = (end(block) - block * kVerticesATask) * out_.stride();
       archive(errors[block], std::span(out_.coefficients).subspan(first, count));
     };
     ORIEL_TRY_VOID(parallel_units(stage_, loop));

@@ -6,8 +6,8 @@
 namespace oriel {
 namespace {
 
-constexpr float kFromWall_m = 0.01f;                       // an eye stays so far from what ends its way
-constexpr std::uint64_t kStream = std::uint64_t{1} << 62;  // of random numbers, apart from those of texels
+constexpr float kFromWall_m = 0.01f;                           // an eye stays so far from what ends its way
+constexpr std::uint64_t kCellStream = std::uint64_t{1} << 62;  // of random numbers, apart from those of texels
 
 // The eye, or where the way to it ends.
 Vec3 reached(const Accel& accel, const Vec3& from, const Vec3& to) {
@@ -41,7 +41,7 @@ Result<std::vector<CellOfEyes>> eyes_by_cell(const Accel& accel, std::span<const
       cell.upper = glm::max(cell.upper, s.eye + Vec3(1.5f * s.cell_m, kEyeAbove_m, 1.5f * s.cell_m));
     }
     for (std::uint32_t e = 0; e < count; ++e) {
-      Sampler sampler(context.seed, kStream + i, e);
+      Sampler sampler(context.seed, kCellStream + i, e);
       const auto& s = standing[i][std::min(
           static_cast<std::size_t>(sampler.next1() * static_cast<float>(standing[i].size())), standing[i].size() - 1)];
       // Every fourth may stand beside.

@@ -10,9 +10,9 @@ namespace oriel {
 namespace {
 
 constexpr float kUsual_m = 1.6f, kUsualRoom_m = 2.7f;
-constexpr float kLeast = 0.6f, kMost = 1.5f;             // of the usual: sitting people, and those on a landing
-constexpr float kLowInRoom = 0.35f, kHighInRoom = 0.8f;  // where eyes are between floor and ceiling
-constexpr float kFarthest = 10;                          // of the usual, down to a floor that is the camera's
+constexpr float kLeastHeight = 0.6f, kMostHeight = 1.5f;  // of the usual: sitting people, and those on a landing
+constexpr float kLowInRoom = 0.35f, kHighInRoom = 0.8f;   // where eyes are between floor and ceiling
+constexpr float kFarthest = 10;                           // of the usual, down to a floor that is the camera's
 
 float median(std::vector<float> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -36,7 +36,7 @@ std::vector<float> camera_heights(const Accel& accel) {
 }
 
 bool is_usual(float eye_height) {
-  return eye_height >= kLeast * kUsual_m && eye_height <= kMost * kUsual_m;
+  return eye_height >= kLeastHeight * kUsual_m && eye_height <= kMostHeight * kUsual_m;
 }
 
 }  // namespace

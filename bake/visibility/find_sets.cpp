@@ -14,11 +14,11 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kEyes = 256;             // of a cell
+constexpr std::uint32_t kEyesACell = 256;
 constexpr std::uint32_t kAllAround = 4096;       // lines from a cell in all directions
 constexpr std::uint32_t kThroughMirror = 65536;  // to what a mirror shows to all eyes
-constexpr std::size_t kBatch = 64;               // lines between looks at whether a group was seen
-constexpr float kNear_m = 0.3f;                  // groups and cells so near are neighbours
+constexpr std::size_t kLinesALook = 64;          // lines between looks at whether a group was seen
+constexpr float kNeighbour_m = 0.3f;             // groups and cells so near are neighbours
 constexpr float kPixel_rad = 0.002f;             // of a frame of some 500 rows
 constexpr int kMostRounds = 64;
 constexpr std::uint32_t kFirstOfMirror = 4;  // times as many lines at first, to what all eyes see in a mirror
@@ -28,8 +28,8 @@ struct Box {
 };
 
 bool are_near(const Box& a, const Box& b) {
-  return glm::all(glm::lessThanEqual(a.lower - kNear_m, b.upper)) &&
-         glm::all(glm::lessThanEqual(b.lower - kNear_m, a.upper));
+  return glm::all(glm::lessThanEqual(a.lower - kNeighbour_m, b.upper)) &&
+         glm::all(glm::lessThanEqual(b.lower - kNeighbour_m, a.upper));
 }
 
 // By item the others near it.
@@ -266,7 +266,7 @@ class VisibleSetFinder {
     std::vector<SightLines::Line> lines;
     for (std::uint32_t i = 0; i < count && !found[g].seen();) {
       lines.clear();
-      for (; i < count && lines.size() < kBatch; ++i) {
+      for (; i < count && lines.size() < kLinesALook; ++i) {
         const bool hinted = !hints.empty() && i % 2 == 0;
         const Witness hint = hinted ? hints[random.below(hints.size())] : Witness{};
         const Vec3& eye =
@@ -357,7 +357,7 @@ std::uint32_t eye_cell_side(std::span<const WalkGrid> grids, const VisibilityOpt
 
 Result<FoundSets> find_visible_sets(const GroupedScene& scene, std::span<const WalkGrid> grids, std::uint32_t side,
                                     const VisibilityOptions& options, Context& context) {
-  ORIEL_TRY(const std::vector<CellOfEyes> cells, eyes_by_cell(scene.accel, grids, side, kEyes, context));
+  ORIEL_TRY(const std::vector<CellOfEyes> cells, eyes_by_cell(scene.accel, grids, side, kEyesACell, context));
   VisibleSetFinder finder(scene, cells, options, context.seed);
   ORIEL_TRY_VOID(parallel_for(context, "visibility", cells.size(), [&](std::size_t c) { finder.look(c); }));
   ORIEL_TRY_VOID(follow_suspects(finder, cells.size(), context));

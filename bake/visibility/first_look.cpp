@@ -12,7 +12,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kPlaces = 160;
+constexpr std::size_t kMostPlaces = 160;
 constexpr int kStepDeg = 5, kColumns = 360 / kStepDeg, kRows = 18;   // of a panorama: from 45° below to 45° above
 constexpr int kHalfWide = 45 / kStepDeg, kHalfHigh = 30 / kStepDeg;  // a frame of 16:9, in such steps
 constexpr int kHalfAhead = 15 / kStepDeg;                            // of the middle, whose sight is measured
@@ -159,7 +159,7 @@ std::vector<Vec3> places_on(std::span<const WalkGrid> grids) {
   for (const WalkGrid& grid : grids)
     for (std::size_t c = 0; c < grid.floor_y.size(); ++c)
       if (grid.walkable(c)) all.push_back(grid.eye(c));
-  const std::size_t count = std::min(all.size(), kPlaces);
+  const std::size_t count = std::min(all.size(), kMostPlaces);
   for (std::size_t i = 0; i < count; ++i) chosen.push_back(all[(2 * i + 1) * all.size() / (2 * count)]);
   return chosen;
 }

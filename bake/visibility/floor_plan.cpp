@@ -8,7 +8,7 @@ namespace oriel {
 namespace {
 
 constexpr int kMaxLayers = 64;  // surfaces under each other in a column
-constexpr int kAround = 8;      // directions in which a body's radius is probed
+constexpr int kProbes = 8;      // directions in which a body's radius is probed
 
 class Searcher {
  public:
@@ -67,8 +67,8 @@ class Searcher {
   // Walls are met by rays sideways, table tops by rays down.
   bool has_room(const Vec3& floor) const {
     const float low = options_.step_m, high = options_.head_room_m - gap_;
-    for (int i = 0; i < kAround; ++i) {
-      const float angle = 2 * kPi * static_cast<float>(i) / kAround;
+    for (int i = 0; i < kProbes; ++i) {
+      const float angle = 2 * kPi * static_cast<float>(i) / kProbes;
       const Vec3 aside = options_.radius_m * Vec3(std::cos(angle), 0, std::sin(angle));
       for (const float h : heights())
         if (!free(floor + Vec3(0, h, 0), aside)) return false;

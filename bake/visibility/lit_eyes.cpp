@@ -18,7 +18,7 @@ constexpr std::size_t kMost = 64;             // of them
 constexpr std::uint32_t kPaths = 32;          // from each
 constexpr double kDark = 1e-5;                // of the light elsewhere: a crack in a shell; a cinema has ten times that
 constexpr std::uint64_t kStream = 0x11614e7;  // of random numbers
-constexpr std::uint32_t kPoints = 2048;       // of a scene that may be a body alone
+constexpr std::uint32_t kBodyPoints = 2048;   // of a scene that may be a body alone
 constexpr std::array<float, 2> kAround{1.2f, 2.2f};  // of the scene's radius: how far eyes are from its middle
 
 // By eye: the mean luminance around it, cd/m².
@@ -60,7 +60,7 @@ bool is_seen(const Accel& accel, const SurfacePoint& point, std::span<const Vec3
 // Fronts that rays from eyes meet.
 std::vector<SurfacePoint> points_met(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t seed) {
   std::vector<SurfacePoint> points;
-  for (std::uint32_t i = 0; i < kPoints; ++i) {
+  for (std::uint32_t i = 0; i < kBodyPoints; ++i) {
     const Vec3 direction = square_to_sphere(Sampler(seed, kStream, i).next2());
     const Hit hit = accel.intersect({eyes[i % eyes.size()], direction});
     if (!hit) continue;
@@ -76,9 +76,9 @@ std::vector<SurfacePoint> points_of_fronts(const Scene& scene, std::uint64_t see
   double all = 0;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) up_to.push_back(all += triangle_area(scene, t));
   std::vector<SurfacePoint> points;
-  for (std::uint32_t i = 0; i < kPoints; ++i) {
+  for (std::uint32_t i = 0; i < kBodyPoints; ++i) {
     Sampler sampler(seed, kStream + 1, i);
-    const auto at = std::upper_bound(up_to.begin(), up_to.end(), all * (i + sampler.next1()) / kPoints);
+    const auto at = std::upper_bound(up_to.begin(), up_to.end(), all * (i + sampler.next1()) / kBodyPoints);
     if (at == up_to.end()) continue;
     const auto triangle = static_cast<std::uint32_t>(at - up_to.begin());
     const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[triangle]].material];

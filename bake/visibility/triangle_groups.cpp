@@ -24,7 +24,7 @@ void halve(Items items, const std::vector<Vec3>& places, const std::function<boo
   halve(items.subspan(items.size() / 2), places, whole, kept);
 }
 
-using Piece = std::vector<std::uint32_t>;  // triangles
+using TrianglePiece = std::vector<std::uint32_t>;  // triangles
 
 std::vector<std::uint32_t> ascending(std::size_t first, std::size_t count) {
   std::vector<std::uint32_t> items(count);
@@ -40,7 +40,7 @@ TriangleGroups group_triangles(const Mesh& mesh, std::uint32_t most) {
     const auto corner = [&](std::size_t k) { return mesh.positions[mesh.indices[i + k]]; };
     middles.push_back((corner(0) + corner(1) + corner(2)) / 3.0f);
   }
-  std::vector<Piece> pieces;
+  std::vector<TrianglePiece> pieces;
   std::vector<Vec3> places;  // of pieces
   for (const MeshPart& part : mesh.parts) {
     std::vector<std::uint32_t> triangles = ascending(part.first_index / 3, part.index_count / 3);

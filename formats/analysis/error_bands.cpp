@@ -13,8 +13,8 @@
 namespace oriel {
 namespace {
 
-constexpr int kAround = 3;     // 8 texels: errors are relative to the light of such blocks
-constexpr double kDark = 0.1;  // of the mean light
+constexpr int kAround = 3;         // 8 texels: errors are relative to the light of such blocks
+constexpr double kDarkBand = 0.1;  // of the mean light
 constexpr std::size_t kMostEyes = 512;
 constexpr float kFar_m = 2;      // of an eye, where a pack tells of none before a surface
 constexpr float kNear_m = 0.3f;  // nobody looks from closer
@@ -119,7 +119,7 @@ std::vector<Block> blocks_of(const Pack& reference, const Pack& pack) {
 void make_relative(std::vector<Block>& texels) {
   double light = 0;
   for (const Block& t : texels) light += t.light;
-  const double dark = kDark * light / static_cast<double>(texels.size());
+  const double dark = kDarkBand * light / static_cast<double>(texels.size());
   std::vector<Block> around = texels;
   std::vector<std::uint32_t> of(texels.size()), parent;
   std::iota(of.begin(), of.end(), 0u);

@@ -1,14 +1,14 @@
 #include "formats/analysis/leaves.h"
 
-#include <nlohmann/json.hpp>
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
 
 // Leaves of a JSON object by their path.
-void flatten(const nlohmann::json& json, const std::string& path, std::map<std::string, std::string>& leaves) {
+void flatten(const Json& json, const std::string& path, std::map<std::string, std::string>& leaves) {
   if (!json.is_object()) {
-    leaves[path] = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    leaves[path] = json.sorted().dump();
     return;
   }
   for (const auto& [key, value] : json.items()) flatten(value, path.empty() ? key : path + "." + key, leaves);
@@ -18,8 +18,7 @@ void flatten(const nlohmann::json& json, const std::string& path, std::map<std::
 
 std::map<std::string, std::string> leaves_of(const std::string& text) {
   std::map<std::string, std::string> leaves;
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_discarded()) flatten(json, "", leaves);
+  if (const auto json = Json::parse(text)) flatten(*json, "", leaves);
   return leaves;
 }
 

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "formats/core/color.h"
+#include "formats/core/json.h"
 #include "formats/query/mesh_rays.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::size_t kMostLights = 32;
 constexpr std::size_t kPointsOfLight = 16;
@@ -72,18 +70,18 @@ std::optional<DVec3> vector_of(const Json& json, const char* name) {
 // As the plan of the bake has them; a pack's text may be anything.
 std::vector<LightSource> punctual_lights(const Pack& pack) {
   std::vector<LightSource> out;
-  const Json plan = Json::parse(pack.plan, nullptr, false);
+  const Json plan = Json::parse(pack.plan).value_or(Json());
   if (!plan.is_object() || !plan.contains("lights") || !plan["lights"].is_array()) return out;
   for (const Json& json : plan["lights"]) {
     if (!json.is_object()) continue;
     LightSource light{json.value("name", std::string()), {}, {}};
     const auto at = vector_of(json, "at"), towards = vector_of(json, "towards");
     if (at) {
-      LightPoint point{Vec3(*at - pack.mesh.origin)};
+      LightPoint& point = light.points.emplace_back();
+      point.at = Vec3(*at - pack.mesh.origin);
       if (towards) point.shines = normalize_or(Vec3(*towards), Vec3(0, -1, 0));
       if (json.contains("outer_cone_rad") && json["outer_cone_rad"].is_number())
         point.cone_cos = std::cos(std::clamp(json["outer_cone_rad"].get<float>(), 0.0f, kPi));
-      light.points.push_back(point);
     } else if (towards) {
       light.from_afar = normalize_or(-Vec3(*towards), Vec3(0, 1, 0));
     } else {

@@ -11,9 +11,9 @@
 namespace oriel {
 namespace {
 
-constexpr float kOtherTexels = 1.1f;  // times as large: another size
-constexpr float kBlockTexels = 4;     // of the larger ones, a block's side
-constexpr double kDark = 0.01;        // of the scene's mean: darker surfaces are measured by it
+constexpr float kOtherTexels = 1.1f;   // times as large: another size
+constexpr float kBlockTexels = 4;      // of the larger ones, a block's side
+constexpr double kDarkSurface = 0.01;  // of the scene's mean: darker surfaces are measured by it
 using PartKey = std::tuple<std::string, std::string, std::size_t>;  // name, material, how many of these came before
 
 bool same_shape(const PartSampler& a, const PartSampler& b, const DVec3& offset) {
@@ -141,7 +141,7 @@ double SurfaceChange::change_lux() const {
 }
 
 double PackDiff::share(const SurfaceChange& surface) const {
-  const double by = std::max({surface.before_lux, surface.after_lux, kDark * mean_lux});
+  const double by = std::max({surface.before_lux, surface.after_lux, kDarkSurface * mean_lux});
   return by > 0 ? surface.change_lux() / by : 0;
 }
 

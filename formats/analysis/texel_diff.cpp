@@ -9,7 +9,7 @@
 namespace oriel {
 namespace {
 
-constexpr double kDark = 0.01;  // of the mean: what relative errors of darker texels are relative to
+constexpr double kDarkTexel = 0.01;  // of the mean: what relative errors of darker texels are relative to
 
 struct Pair {
   double first = 0, second = 0, first_error = 0, second_error = 0;
@@ -56,7 +56,7 @@ std::optional<TexelDiff> diff_texels(const Pack& first, const Pack& second) {
   for (const Pair& p : pairs) out.mean_lux += p.first / count, second_mean += p.second / count;
   if (!(out.mean_lux > 0) && second_mean > 0) return std::nullopt;
   out.bias = out.mean_lux > 0 ? second_mean / out.mean_lux - 1 : 0;
-  const double dark = kDark * out.mean_lux;
+  const double dark = kDarkTexel * out.mean_lux;
   std::vector<double> net;  // squares
   double brighter = 0;
   for (const Pair& p : pairs) {

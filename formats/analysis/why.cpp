@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "formats/analysis/lights.h"
 #include "formats/core/color.h"
+#include "formats/core/json.h"
 #include "formats/core/result.h"
 #include "formats/query/mesh_rays.h"
 
@@ -18,7 +18,7 @@ constexpr float kParallel = 0.999f;    // of their normals
 constexpr float kCovers_m = 0.02f;     // what is no farther before a surface lies on it
 constexpr int kLooks = 48;             // directions that are looked along
 constexpr float kAll = 0.9f;           // of them, for "all of it"
-constexpr double kDark = 1e-3;         // of the page's mean
+constexpr double kDarkPlace = 1e-3;    // of the page's mean
 constexpr int kFilledReach = 24;       // texels from which light is filled in
 
 struct Nearest {
@@ -95,7 +95,7 @@ void read_texel(const Mesh& mesh, const Nearest& n, const LightmapPage& page, Wh
   why.side_m = p.side_m;
   why.lux = luminance(page.irradiance[i]);
   why.lux_error = luminance(page.standard_error[i]);
-  why.dark = why.lux <= kDark * mean_lux(page);
+  why.dark = why.lux <= kDarkPlace * mean_lux(page);
 }
 
 // The nearest texel that was baked.
@@ -205,8 +205,8 @@ void add_surroundings(const Pack& pack, const MeshRays& rays, const SeenPoint& p
 // Why nothing shines there, of one that is dark.
 void add_darkness(const Pack& pack, Why& why) {
   if (why.lights.empty()) {
-    const nlohmann::json plan = nlohmann::json::parse(pack.plan, nullptr, false);
-    const auto scene = plan.is_object() ? plan.value("scene", nlohmann::json()) : nlohmann::json();
+    const Json plan = Json::parse(pack.plan).value_or(Json());
+    const auto scene = plan.is_object() ? plan.value("scene", Json()) : Json();
     const bool untold = scene.is_object() && scene.contains("punctual_lights") && scene["punctual_lights"] != 0;
     why.reasons.push_back(
         untold ? Reason{Cause::kIndirect, "", "the pack does not tell where its point and sun lights are",
@@ -312,7 +312,7 @@ std::optional<Why> why_at(const Pack& pack, const MeshRays& rays, const Vec3& pl
   }
   why.lights = judge_lights(pack, rays, point, why.lights_left_out);
   if (why.dark && why.reasons.empty()) add_darkness(pack, why);
-  const nlohmann::json plan = nlohmann::json::parse(pack.plan, nullptr, false);
+  const Json plan = Json::parse(pack.plan).value_or(Json());
   if (plan.is_object() && plan.contains("radiosity") && plan["radiosity"].is_object() &&
       plan["radiosity"].contains("refinements") && plan["radiosity"]["refinements"].is_number_integer())
     why.refinements = plan["radiosity"]["refinements"].get<int>();

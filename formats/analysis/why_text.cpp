@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/analysis/why.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
@@ -66,7 +65,6 @@ std::string why_text(const Why& why) {
 }
 
 std::string why_json(const Why& why) {
-  using Json = nlohmann::ordered_json;
   Json reasons = Json::array(), lights = Json::array();
   for (const Reason& r : why.reasons)
     reasons.push_back({{"cause", name_of(r.cause)}, {"object", r.object}, {"text", r.text}, {"fix", r.fix}});
@@ -93,7 +91,7 @@ std::string why_json(const Why& why) {
                      {"near_share", why.near_share},
                      {"near", why.near_by},
                      {"refinements", why.refinements ? Json(*why.refinements) : Json()}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(2) + "\n";
 }
 
 }  // namespace oriel

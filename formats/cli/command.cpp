@@ -1,15 +1,64 @@
 #include "formats/cli/command.h"
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "formats/cli/help.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 
 namespace oriel {
 namespace {
+
+constexpr const char* kHelpGroup = "Help";  // comes last
+constexpr std::size_t kWidth = 100;         // of a line of help
+
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::istringstream words(text);
+  const std::string margin(indent, ' ');
+  std::string out, line = margin;
+  for (std::string word; words >> word;) {
+    if (line.size() > indent && line.size() + 1 + word.size() > kWidth) {
+      out += line + "\n";
+      line = margin;
+    }
+    if (line.size() > indent) line += " ";
+    line += word;
+  }
+  return out + line + "\n";
+}
+
+// An option's description below its name, in lines of a terminal's width.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_description(const CLI::App* command) const override { return command->get_description() + "\n"; }
+
+  std::string make_help(const CLI::App* command, std::string name, CLI::AppFormatMode mode) const override {
+    std::string out = make_description(command) + make_usage(command, std::move(name)) + make_positionals(command);
+    std::vector<std::string> groups = command->get_groups();
+    std::stable_partition(groups.begin(), groups.end(), [](const auto& group) { return group != kHelpGroup; });
+    for (const std::string& group : groups) {
+      const auto options = command->get_options(
+          [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
+      if (!group.empty() && !options.empty()) out += make_group(group, false, options);
+    }
+    return out + make_subcommands(command, mode) + "\n" + make_footer(command);
+  }
+
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    const std::string type = is_positional ? "" : make_option_opts(option);
+    return fmt::format("  {}{}\n{}", make_option_name(option, is_positional), type,
+                       wrapped(make_option_desc(option), 8));
+  }
+
+  std::string make_subcommand(const CLI::App* command) const override {
+    return fmt::format("  {}\n{}", command->get_display_name(true), wrapped(command->get_description(), 8));
+  }
+};
 
 // A command beside what CLI11 makes of it.
 struct Mounted {
@@ -35,6 +84,8 @@ CLI::Option* mount(const Option& option, bool all, CLI::App& app) {
         option.name, [](const CLI::results_t&) { return true; }, option.help);
     out->type_name(option.value.type)->allow_extra_args(false)->default_str(option.value.get());
     if (option.value.repeats) out->take_all();
+    if (option.value.repeats && option.name[0] != '-') out->expected(-1);
+    if (option.value.type[0] == '[') out->expected(0, 1);
   }
   return out->group(all || option.use != Use::kRare ? option.group : "");
 }
@@ -95,8 +146,9 @@ Status read_preset(const std::string& file, const ToolCommand& command, Given& g
     const Option* option = name[0] == '-' ? find_option(command, name) : nullptr;
     const bool has_value = space != std::string::npos;
     if (option == nullptr || has_value == option->value.type.empty())
-      return fail(ErrorCode::kUsage, fmt::format("{}:{}", file, number), "found '{}', expected {}", line,
-                  option == nullptr ? "an option of " + command.name : option->name + " " + option->value.type);
+      return fail(
+          ErrorCode::kUsage, fmt::format("{}:{}", file, number), "found '{}', expected {}", line,
+          option == nullptr ? "an option of " + command.name : fmt::format("{} {}", option->name, option->value.type));
     found[name].push_back(has_value ? line.substr(line.find_first_not_of(" \t=", space)) : "");
   }
   for (auto& [name, texts] : found) given.add(name, {Source::kPreset, std::move(texts)});
@@ -133,10 +185,11 @@ Status check_given(const ToolCommand& command, const Given& given) {
     if (option.use == Use::kRequired && !given.has(name))
       return fail(ErrorCode::kUsage, "", "found no {}, expected it: {}", name, option.help);
     if (!given.has(name)) continue;
-    for (const std::string& other : option.excludes)
+    std::istringstream others(option.excludes);
+    for (std::string other; others >> other;)
       if (given.has(other))
         return fail(ErrorCode::kUsage, "", "found both {} and {}, expected one of them", name, other);
-    if (!option.needs.empty() && !given.has(option.needs))
+    if (*option.needs != '\0' && !given.has(option.needs))
       return fail(ErrorCode::kUsage, name, "needs {}", option.needs);
   }
   return {};
@@ -166,7 +219,8 @@ Result<std::variant<const ToolCommand*, int>> finish(const Mounted& mounted) {
     return 0;
   }
   if (!command.run && command.commands.size() > 0)
-    return fail(ErrorCode::kUsage, command.name, "found no command, expected one: see --help");
+    return fail(ErrorCode::kUsage, mounted.app->get_parent() == nullptr ? "" : command.name,
+                "found no command, expected one: see --help");
   ORIEL_TRY_VOID(check_given(command, given));
   if (command.settle) ORIEL_TRY_VOID(command.settle(given));
   return &command;
@@ -201,9 +255,8 @@ void complain(const CommandLine& program, const std::vector<std::string>& words,
               const char* after) {
   const bool json = std::find(words.begin(), words.end(), "--json-log") != words.end();
   if (json) {
-    const nlohmann::ordered_json line = {
-        {"event", "error"}, {"tool", program.command.name}, {"code", code}, {"message", message}};
-    std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    const Json line = {{"event", "error"}, {"tool", program.command.name}, {"code", code}, {"message", message}};
+    std::fprintf(stderr, "%s\n", line.dump().c_str());
   } else {
     std::fprintf(stderr, "%s: %s%s\n", program.command.name.c_str(), message.c_str(), after);
   }
@@ -245,6 +298,16 @@ std::variant<const ToolCommand*, int> parse(const CommandLine& program, int argc
   if (done) return *done;
   complain(program, words, done.error().text(), static_cast<int>(done.error().code), "");
   return static_cast<int>(done.error().code);
+}
+
+std::optional<int> parse_options(int argc, const char* const* argv, const char* help, std::vector<Option> options) {
+  for (Option& option : options)
+    if (option.use == Use::kRare) option.use = Use::kEveryday;
+  CommandLine line{"", {std::filesystem::path(argv[0]).filename().string(), help, "", std::move(options)}};
+  line.command.run = []() -> Status { return {}; };
+  const auto parsed = parse(line, argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) return *code;
+  return {};
 }
 
 }  // namespace oriel

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -54,5 +55,8 @@ struct CommandLine {
 //   --preset FILE        takes options from a file, "--texel 5cm" a line; what the command line says wins
 // and the program --version and --completion bash.
 std::variant<const ToolCommand*, int> parse(const CommandLine& program, int argc, const char* const* argv);
+
+// Of a program without commands: its options are set, or it ends with the code. All options are everyday ones.
+std::optional<int> parse_options(int argc, const char* const* argv, const char* help, std::vector<Option> options);
 
 }  // namespace oriel

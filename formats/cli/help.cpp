@@ -1,28 +1,12 @@
 #include "formats/cli/help.h"
 
+#include <algorithm>
 #include <cctype>
 #include <set>
 #include <sstream>
 
 namespace oriel {
 namespace {
-
-constexpr std::size_t kWidth = 100;  // of a line of help
-
-std::string wrapped(const std::string& text, std::size_t indent) {
-  std::istringstream words(text);
-  const std::string margin(indent, ' ');
-  std::string out, line = margin;
-  for (std::string word; words >> word;) {
-    if (line.size() > indent && line.size() + 1 + word.size() > kWidth) {
-      out += line + "\n";
-      line = margin;
-    }
-    if (line.size() > indent) line += " ";
-    line += word;
-  }
-  return out + line + "\n";
-}
 
 bool stands_for_itself(const std::string& word) {
   return !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
@@ -83,37 +67,12 @@ void add_rows(const std::vector<const Option*>& options, std::string& page) {
     std::string value = option->value.get();
     if (option->value.type.empty() || is_positional(*option)) value.clear();
     page += fmt::format("| `{}{}` | {} | {}{} |\n", names, is_positional(*option) ? "" : type, value, option->help,
-                        option->see.empty() ? "" : fmt::format(" ([more]({}))", option->see));
+                        *option->see == '\0' ? "" : fmt::format(" ([more]({}))", option->see));
   }
   page += "\n";
 }
 
 }  // namespace
-
-std::string HelpFormatter::make_description(const CLI::App* command) const {
-  return command->get_description() + "\n";
-}
-
-std::string HelpFormatter::make_help(const CLI::App* command, std::string name, CLI::AppFormatMode mode) const {
-  std::string out = make_description(command) + make_usage(command, std::move(name)) + make_positionals(command);
-  std::vector<std::string> groups = command->get_groups();
-  std::stable_partition(groups.begin(), groups.end(), [](const auto& group) { return group != kHelpGroup; });
-  for (const std::string& group : groups) {
-    const auto options = command->get_options(
-        [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
-    if (!group.empty() && !options.empty()) out += make_group(group, false, options);
-  }
-  return out + make_subcommands(command, mode) + "\n" + make_footer(command);
-}
-
-std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
-  const std::string type = is_positional ? "" : make_option_opts(option);
-  return fmt::format("  {}{}\n{}", make_option_name(option, is_positional), type, wrapped(make_option_desc(option), 8));
-}
-
-std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
-  return fmt::format("  {}\n{}", command->get_display_name(true), wrapped(command->get_description(), 8));
-}
 
 std::string options_text(const ToolCommand& command, const Given& given, const std::vector<std::string>& values) {
   constexpr const char* kSources[] = {"default", "preset", "command line"};
@@ -149,13 +108,13 @@ std::string bash_completion(const ToolCommand& program) {
 
 std::string options_page(const ToolCommand& program) {
   std::set<std::string> known;
-  std::vector<std::string> groups;
+  std::vector<std::string_view> groups;
   for (const Option& option : program.options) {
     known.insert(option.name);
     if (std::find(groups.begin(), groups.end(), option.group) == groups.end()) groups.push_back(option.group);
   }
   std::string page;
-  for (const std::string& group : groups) {
+  for (const std::string_view group : groups) {
     std::vector<const Option*> rows;
     for (const Option& option : program.options)
       if (option.group == group) rows.push_back(&option);

@@ -1,15 +1,17 @@
 #include "formats/cli/option.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <type_traits>
+#include <utility>
+
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Not a number is neither more nor less than any bound, and refused.
 template <class T>
@@ -32,16 +34,46 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return out;
 }
 
+// One of some names: choose() gets its index, chosen() tells it.
+OptionValue named(std::vector<std::string> names, std::function<void(std::size_t)> choose,
+                  std::function<std::size_t()> chosen) {
+  const std::string type = joined(names, "|");
+  const auto get = [names, chosen = std::move(chosen)] {
+    const std::size_t i = chosen();
+    return i < names.size() ? names[i] : std::string();
+  };
+  return {type,
+          [names, choose = std::move(choose)](const std::string& typed) -> Status {
+            const auto found = std::find(names.begin(), names.end(), typed);
+            if (found == names.end())
+              return fail(ErrorCode::kUsage, "", "found '{}', expected {}{}", typed, names.size() > 1 ? "one of " : "",
+                          joined(names, ", "));
+            choose(static_cast<std::size_t>(found - names.begin()));
+            return {};
+          },
+          get, [get] { return Json(get()); }};
+}
+
 }  // namespace
 
+OptionValue::OptionValue(std::string type_, std::function<Status(const std::string&)> set_,
+                         std::function<std::string()> get_, std::function<Json()> json_)
+    : type(std::move(type_)), set(std::move(set_)), get(std::move(get_)), json(std::move(json_)) {}
+OptionValue::OptionValue(const OptionValue&) = default;
+OptionValue::OptionValue(OptionValue&&) noexcept = default;
+OptionValue& OptionValue::operator=(const OptionValue&) = default;
+OptionValue& OptionValue::operator=(OptionValue&&) noexcept = default;
+OptionValue::~OptionValue() = default;
+
 std::string long_name(const Option& option) {
-  return option.name.substr(option.name.rfind(',') + 1);
+  const std::string name = option.name;
+  return name.substr(name.rfind(',') + 1);
 }
 
 void record(const Option& option, Json& record) {
   if (!option.value.json) return;
   Json value = option.value.json();
-  if (!option.record.empty())
+  if (*option.record != '\0')
     record[option.record] = std::move(value);
   else if (value.is_object())
     record.update(value);
@@ -107,8 +139,8 @@ template std::function<Json()> json_of(const std::uint64_t&);
 template std::function<Json()> json_of(const float&);
 template std::function<Json()> json_of(const double&);
 
-OptionValue text(std::string& target, std::string type) {
-  return {std::move(type),
+OptionValue text(std::string& target, const char* type) {
+  return {type,
           [&target](const std::string& typed) -> Status {
             target = typed;
             return {};
@@ -116,8 +148,9 @@ OptionValue text(std::string& target, std::string type) {
           [&target] { return target; }, [&target] { return Json(target); }};
 }
 
-OptionValue path(std::filesystem::path& target, std::string type) {
-  return {std::move(type),
+template <class Path>
+OptionValue path(Path& target, const char* type) {
+  return {type,
           [&target](const std::string& typed) -> Status {
             target = typed;
             return {};
@@ -125,13 +158,18 @@ OptionValue path(std::filesystem::path& target, std::string type) {
           [&target] { return target.string(); }};
 }
 
-OptionValue texts(std::vector<std::string>& target, std::string type) {
-  return {std::move(type),
-          [&target](const std::string& typed) -> Status {
-            target.push_back(typed);
-            return {};
-          },
-          [&target] { return joined(target, " "); }, [&target] { return Json(target); }, true};
+template OptionValue path(std::filesystem::path&, const char*);
+
+OptionValue texts(std::vector<std::string>& target, const char* type) {
+  OptionValue value(
+      type,
+      [&target](const std::string& typed) -> Status {
+        target.push_back(typed);
+        return {};
+      },
+      [&target] { return joined(target, " "); }, [&target] { return Json(target); });
+  value.repeats = true;
+  return value;
 }
 
 OptionValue numbers(std::vector<double>& target, double low, double high) {
@@ -153,23 +191,39 @@ OptionValue numbers(std::vector<double>& target, double low, double high) {
           }};
 }
 
-OptionValue choice_of(std::vector<std::string> names, std::function<void(std::size_t)> choose,
-                      std::function<std::size_t()> chosen) {
-  const std::string type = joined(names, "|");
-  const auto get = [names, chosen = std::move(chosen)] {
-    const std::size_t i = chosen();
-    return i < names.size() ? names[i] : std::string();
-  };
+OptionValue one_of(std::string& target, std::initializer_list<const char*> words) {
+  const std::vector<std::string> names(words.begin(), words.end());
+  return named(
+      names, [&target, names](std::size_t i) { target = names[i]; },
+      [&target, names] { return static_cast<std::size_t>(std::ranges::find(names, target) - names.begin()); });
+}
+
+OptionValue choice_of(std::vector<Named<double>> names, NumberAccess access) {
+  std::vector<std::string> only;
+  for (const auto& [name, value] : names) only.emplace_back(name);
+  return named(
+      std::move(only), [access, names](std::size_t i) { access.set(access.variable, names[i].value); },
+      [access, names] {
+        const auto found = std::ranges::find(names, access.get(access.variable), &Named<double>::value);
+        return static_cast<std::size_t>(found - names.begin());
+      });
+}
+
+template <class T, class Parsed>
+OptionValue quantity(T& target, const char* type, Result<Parsed> (*parse)(const std::string&),
+                     std::string (*print)(std::type_identity_t<T>)) {
   return {type,
-          [names, choose = std::move(choose)](const std::string& typed) -> Status {
-            const auto found = std::find(names.begin(), names.end(), typed);
-            if (found == names.end())
-              return fail(ErrorCode::kUsage, "", "found '{}', expected {}{}", typed, names.size() > 1 ? "one of " : "",
-                          joined(names, ", "));
-            choose(static_cast<std::size_t>(found - names.begin()));
+          [&target, parse](const std::string& typed) -> Status {
+            ORIEL_TRY(target, parse(typed));
             return {};
           },
-          get, [get] { return Json(get()); }};
+          [&target, print] { return print(target); }, json_of(target)};
 }
+
+template OptionValue quantity(float&, const char*, Result<float> (*)(const std::string&), std::string (*)(float));
+template OptionValue quantity(double&, const char*, Result<float> (*)(const std::string&), std::string (*)(double));
+template OptionValue quantity(double&, const char*, Result<double> (*)(const std::string&), std::string (*)(double));
+template OptionValue quantity(std::uint64_t&, const char*, Result<std::uint64_t> (*)(const std::string&),
+                              std::string (*)(std::uint64_t));
 
 }  // namespace oriel

@@ -76,9 +76,7 @@ class Archive {
   template <class T>
   void one(std::span<T>& things) {
     const auto wanted = static_cast<std::uint64_t>(things.size());
-    auto count = wanted;
-    raw(&count, sizeof(count));
-    ok_ = ok_ && count == wanted;
+    ok_ = length(wanted) == wanted && ok_;
     for (T& thing : things) constant(thing);
   }
   void one(std::string& text) { sequence(text); }
@@ -95,8 +93,7 @@ class Archive {
   template <class Sequence>
   void sequence(Sequence& things) {
     using T = typename Sequence::value_type;
-    auto count = static_cast<std::uint64_t>(things.size());
-    raw(&count, sizeof(count));
+    const std::uint64_t count = length(things.size());
     if (reading_) {
       // Nothing is allocated for a count that cannot be true: an element has a byte at least.
       ok_ = ok_ && count <= from_.size() / (IsPlain<T>::value ? sizeof(T) : 1);
@@ -109,16 +106,9 @@ class Archive {
       for (T& thing : things) one(thing);
   }
 
-  void raw(void* data, std::size_t size) {
-    const std::span<const std::byte> bytes(static_cast<const std::byte*>(data), size);
-    if (to_) to_->insert(to_->end(), bytes.begin(), bytes.end());
-    if (hasher_) hasher_->add(bytes);
-    if (!reading_) return;
-    ok_ = ok_ && size <= from_.size();
-    if (!ok_) return;
-    if (size > 0) std::memcpy(data, from_.data(), size);
-    from_ = from_.subspan(size);
-  }
+  void raw(void* data, std::size_t size);
+  // As it is written, or read.
+  std::uint64_t length(std::uint64_t count);
 
   Bytes* to_ = nullptr;
   Hasher* hasher_ = nullptr;

@@ -95,6 +95,10 @@ Status write_file_atomically(const fs::path& path, std::span<const std::byte> by
   return file.commit();
 }
 
+Status write_text_atomically(const fs::path& path, std::string_view text) {
+  return write_file_atomically(path, std::as_bytes(std::span(text)));
+}
+
 Result<MappedFile> MappedFile::open(const fs::path& path) {
   ORIEL_TRY_VOID(check_file(path));
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);

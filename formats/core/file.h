@@ -42,6 +42,7 @@ class AtomicFile {
 
 // The same at once.
 Status write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+Status write_text_atomically(const std::filesystem::path& path, std::string_view text);
 
 // The bytes of a file as they lie in the system's file cache: none is read before somebody looks at it, and none is
 // copied. The file must keep its length while it is mapped, as files that are replaced by renaming do.

@@ -1,7 +1,7 @@
 // Result and Error: how bad input and failed work are reported. Nothing here throws or exits.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 #include <tl/expected.hpp>
@@ -24,8 +24,17 @@ struct Error {
   std::string message;  // one line: what was found and what was expected
   std::string where;    // file, node, mesh, accessor, section …; may be empty
 
+  // In result.cpp: each ORIEL_TRY moves one and destroys two, which is long where it is inline.
+  Error();
+  Error(ErrorCode code, std::string message, std::string where = {});
+  Error(const Error&);
+  Error(Error&&) noexcept;
+  Error& operator=(const Error&);
+  Error& operator=(Error&&) noexcept;
+  ~Error();
+
   // "where: message", or the message alone.
-  std::string text() const { return where.empty() ? message : where + ": " + message; }
+  std::string text() const;
 };
 
 // A value, or the Error that says why there is none.
@@ -33,13 +42,14 @@ template <class T>
 using Result = tl::expected<T, Error>;
 using Status = Result<void>;
 
+tl::unexpected<Error> failed(ErrorCode code, std::string where, fmt::string_view format, fmt::format_args args);
 template <class... Args>
 tl::unexpected<Error> fail(ErrorCode code, std::string where, fmt::format_string<Args...> format, Args&&... args) {
-  return tl::unexpected<Error>(Error{code, fmt::format(format, std::forward<Args>(args)...), std::move(where)});
+  return failed(code, std::move(where), format, fmt::make_format_args(args...));
 }
 template <class... Args>
 tl::unexpected<Error> invalid(std::string where, fmt::format_string<Args...> format, Args&&... args) {
-  return fail(ErrorCode::kInvalid, std::move(where), format, std::forward<Args>(args)...);
+  return failed(ErrorCode::kInvalid, std::move(where), format, fmt::make_format_args(args...));
 }
 
 #define ORIEL_CONCAT_(a, b) a##b

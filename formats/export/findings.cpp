@@ -1,14 +1,11 @@
-#include <nlohmann/json.hpp>
-
 #include "formats/analysis/why.h"
+#include "formats/core/json.h"
 #include "formats/export/html.h"
 #include "formats/export/place_picture.h"
 #include "formats/export/sections.h"
 
 namespace oriel::report {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::size_t kPictures = 6;
 
@@ -85,7 +82,7 @@ void add_texts(const Pack& pack, const Json& plan, const std::string& what, cons
 
 // Where held-out pixels were off most, with why it may be so.
 void add_worst(const Pack& pack, const Json& plan, Findings& out) {
-  const Json worst = plan.value("/radiosity/certificate/worst"_json_pointer, Json::array());
+  const Json& worst = plan["radiosity"]["certificate"]["worst"];
   if (!worst.is_array()) return;
   for (const Json& w : worst) {
     if (!w.is_object() || !w.contains("at") || !w["at"].is_array() || w["at"].size() != 3) continue;
@@ -122,7 +119,7 @@ void add_worst(const Pack& pack, const Json& plan, Findings& out) {
 }  // namespace
 
 std::string findings_html(const Pack& pack, const Limits& limits) {
-  const Json plan = Json::parse(pack.plan, nullptr, false);
+  const Json plan = Json::parse(pack.plan).value_or(Json());
   if (!plan.is_object()) return {};
   Findings out(pack);
   add_texts(pack, plan, "finding", limits, out);

@@ -5,7 +5,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kByte = 5121, kInt = 5125, kFloat = 5126;
+constexpr int kByteComponents = 5121, kIntComponents = 5125, kFloatComponents = 5126;
 constexpr int kVertices = 34962, kIndices = 34963, kNoTarget = 0;
 
 }  // namespace
@@ -35,10 +35,10 @@ std::size_t Glb::add_accessor(std::span<const std::byte> bytes, int target, int 
 }
 
 std::size_t Glb::add_vectors(std::span<const Vec3> values) {
-  return add_accessor(std::as_bytes(values), kVertices, kFloat, values.size(), "VEC3");
+  return add_accessor(std::as_bytes(values), kVertices, kFloatComponents, values.size(), "VEC3");
 }
 std::size_t Glb::add_vectors(std::span<const Vec2> values) {
-  return add_accessor(std::as_bytes(values), kVertices, kFloat, values.size(), "VEC2");
+  return add_accessor(std::as_bytes(values), kVertices, kFloatComponents, values.size(), "VEC2");
 }
 
 std::size_t Glb::add_positions(std::span<const Vec3> values) {
@@ -51,13 +51,13 @@ std::size_t Glb::add_positions(std::span<const Vec3> values) {
 }
 
 std::size_t Glb::add_colors(std::span<const std::uint32_t> rgba8) {
-  const std::size_t accessor = add_accessor(std::as_bytes(rgba8), kVertices, kByte, rgba8.size(), "VEC4");
+  const std::size_t accessor = add_accessor(std::as_bytes(rgba8), kVertices, kByteComponents, rgba8.size(), "VEC4");
   json["accessors"][accessor]["normalized"] = true;
   return accessor;
 }
 
 std::size_t Glb::add_indices(std::span<const std::uint32_t> values) {
-  return add_accessor(std::as_bytes(values), kIndices, kInt, values.size(), "SCALAR");
+  return add_accessor(std::as_bytes(values), kIndices, kIntComponents, values.size(), "SCALAR");
 }
 
 std::size_t Glb::add_png(const std::string& name, std::span<const std::byte> png) {
@@ -71,7 +71,7 @@ Result<Bytes> Glb::file() const {
   const std::size_t binary = padded(binary_.bytes().size());
   Json whole = json;
   if (binary > 0) whole["buffers"] = {{{"byteLength", binary}}};
-  std::string text = whole.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = whole.dump();
   text.resize(padded(text.size()), ' ');
   const std::size_t total = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
   if (total > 0xffffffff) return invalid("", "the scene takes {} bytes as .glb, expected less than 2^32", total);

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "formats/core/bytes.h"
+#include "formats/core/json.h"
 #include "formats/core/result.h"
 #include "formats/core/vec.h"
 
@@ -13,8 +13,6 @@ namespace oriel {
 
 class Glb {
  public:
-  using Json = nlohmann::ordered_json;
-
   Json json = {{"asset", {{"version", "2.0"}, {"generator", "oriel-inspect"}}}};
 
   // Accessors by their number. Positions get the bounds that glTF wants of them.

@@ -1,7 +1,7 @@
 // Pieces of a page. Texts of a pack may hold anything: all that is put in here is shortened and escaped.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 #include <vector>

@@ -1,22 +1,20 @@
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "formats/analysis/leaves.h"
 #include "formats/core/color.h"
+#include "formats/core/json.h"
 #include "formats/export/html.h"
 #include "formats/export/sections.h"
 
 namespace oriel::report {
 namespace {
 
-using Json = nlohmann::json;
-
 std::string dump(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.sorted().dump();
 }
 
 Json parsed(const std::string& text) {
-  Json json = Json::parse(text, nullptr, false);
+  Json json = Json::parse(text).value_or(Json());
   return json.is_object() ? json : Json::object();
 }
 

@@ -12,8 +12,6 @@
 namespace oriel {
 namespace {
 
-using Json = Glb::Json;
-
 Json list(const Vec3& v) {
   return {v.x, v.y, v.z};
 }

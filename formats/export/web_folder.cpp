@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 #include "formats/export/pieces.h"
 #include "formats/export/sha256.h"
@@ -57,7 +56,7 @@ Status make_folder(const std::filesystem::path& folder) {
 
 // The pieces, and the manifest that names them.
 Result<std::string> put_pieces(FolderWriter& writer, const Pack& pack, const WebOptions& options) {
-  nlohmann::ordered_json pieces = nlohmann::ordered_json::array();
+  Json pieces = Json::array();
   const auto put = [&](WebPiece piece) -> Status {
     const std::string name = fmt::format("pieces/{}-{}.oriel", piece.kind, short_hash(piece.bytes));
     pieces.push_back({{"kind", piece.kind},
@@ -70,8 +69,7 @@ Result<std::string> put_pieces(FolderWriter& writer, const Pack& pack, const Web
     return {};
   };
   ORIEL_TRY_VOID(make_pieces(pack, put));
-  return nlohmann::ordered_json({{"version", kWebVersion}, {"title", options.title}, {"pieces", pieces}}).dump(1) +
-         "\n";
+  return Json({{"version", kWebVersion}, {"title", options.title}, {"pieces", pieces}}).dump(1) + "\n";
 }
 
 }  // namespace

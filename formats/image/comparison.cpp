@@ -1,8 +1,8 @@
 #include "formats/image/comparison.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "formats/core/json.h"
 #include "formats/image/display.h"
 #include "formats/image/flip.h"
 #include "formats/image/ssim.h"
@@ -57,7 +57,7 @@ FloatImage side_by_side(const std::array<const FloatImage*, 3>& pictures) {
   return out;
 }
 
-nlohmann::ordered_json error_json(const RelativeError& e) {
+Json error_json(const RelativeError& e) {
   return {{"relRMSE", e.rel_rmse}, {"noise", e.noise}, {"net", e.net()}, {"nRMSE", e.n_rmse}, {"bias", e.bias}};
 }
 
@@ -130,15 +130,14 @@ std::string comparison_text(const Comparison& c) {
 }
 
 std::string comparison_json(const Comparison& c, std::optional<double> max_flip) {
-  nlohmann::ordered_json json = {
-      {"width", c.width}, {"height", c.height}, {"white_cd_m2", c.white}, {"holes", c.holes}};
+  Json json = {{"width", c.width}, {"height", c.height}, {"white_cd_m2", c.white}, {"holes", c.holes}};
   if (c.sharp) json["sharp"] = *c.sharp;
   if (max_flip) {
     json["max_flip"] = *max_flip;
     json["passed"] = c.regions.front().flip <= *max_flip;
   }
   for (const RegionComparison& r : c.regions) {
-    nlohmann::ordered_json& out = json["regions"][r.name];
+    Json& out = json["regions"][r.name];
     out = {{"pixels", r.pixels}, {"psnr_db", psnr_db(r.mse)},
            {"mse", r.mse},       {"noise_mse", r.noise_mse},
            {"ssim", r.ssim},     {"flip", r.flip}};

@@ -42,8 +42,8 @@ int extract(const std::filesystem::path& path, const ExtractOptions& options);
 
 struct DiffOptions {
   bool json = false;
-  double tolerance = -1;      // share of a surface's light that may change; negative: any
-  std::size_t surfaces = 20;  // so many are printed, those that changed most; JSON holds all
+  std::optional<double> tolerance;  // share of a surface's light that may change; none: any
+  std::size_t surfaces = 20;        // so many are printed, those that changed most; JSON holds all
 };
 
 // What changed between two packs: light by surface, sections, options; Markdown or JSON. Exit code 5 where a surface

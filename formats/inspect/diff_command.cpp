@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "formats/analysis/error_bands.h"
 #include "formats/analysis/pack_diff.h"
 #include "formats/analysis/texel_diff.h"
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/inspect/commands.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kLongest = 60;  // of an option's value in Markdown
 
-struct Kind {
+struct KindSizes {
   std::uint64_t sections[2] = {0, 0}, bytes[2] = {0, 0};
 };
 
@@ -43,12 +43,12 @@ std::string kind_text(std::uint32_t kind) {
   return known == nullptr ? "unknown" : known->meaning;
 }
 
-std::map<std::string, Kind> kinds_of(const PackIndex& before, const PackIndex& after) {
-  std::map<std::string, Kind> kinds;
+std::map<std::string, KindSizes> kinds_of(const PackIndex& before, const PackIndex& after) {
+  std::map<std::string, KindSizes> kinds;
   const PackIndex* const both[] = {&before, &after};
   for (int i = 0; i < 2; ++i)
     for (const SectionInfo& section : both[i]->sections) {
-      Kind& kind = kinds[kind_text(section.kind)];
+      KindSizes& kind = kinds[kind_text(section.kind)];
       ++kind.sections[i];
       kind.bytes[i] += section.stored_bytes;
     }
@@ -66,8 +66,8 @@ const char* text_of(SurfaceState state) {
   }
 }
 
-bool within(const PackDiff& diff, double tolerance) {
-  if (tolerance < 0) return true;
+bool within(const PackDiff& diff, std::optional<double> tolerance) {
+  if (!tolerance) return true;
   for (const SurfaceChange& s : diff.surfaces)
     if (s.state != SurfaceState::kBoth) return false;
   return diff.largest() <= tolerance;
@@ -118,7 +118,7 @@ void print_bands(const ErrorBands& bands, const std::vector<MeshPart>& parts) {
   fmt::print("\n");
 }
 
-nlohmann::ordered_json bands_json(const BandErrors& e) {
+Json bands_json(const BandErrors& e) {
   return {{"texels", e.texels}, {"bands", e.band}, {"wider", e.wider}, {"visible", e.visible}};
 }
 
@@ -157,7 +157,7 @@ bool in_blocks(const PackDiff& diff) {
   return std::any_of(diff.surfaces.begin(), diff.surfaces.end(), [](const SurfaceChange& s) { return s.block_m > 0; });
 }
 
-void print_markdown(const PackDiff& diff, const OfTexels& texels, const std::map<std::string, Kind>& kinds,
+void print_markdown(const PackDiff& diff, const OfTexels& texels, const std::map<std::string, KindSizes>& kinds,
                     const DiffOptions& options) {
   fmt::print("{}\n", what_differs(diff));
   if (in_blocks(diff))
@@ -190,8 +190,9 @@ void print_markdown(const PackDiff& diff, const OfTexels& texels, const std::map
     fmt::print("| {} | {} | {} |\n", o.name, shortened(o.before), shortened(o.after));
 }
 
-void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std::string, Kind>& kinds, bool good) {
-  nlohmann::ordered_json out;
+void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std::string, KindSizes>& kinds,
+                bool good) {
+  Json out;
   out["schema"] = kJsonSchema;
   out["within_tolerance"] = good;
   const auto any = [&](bool input) {
@@ -203,7 +204,7 @@ void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std
   out["settings_differ"] = any(false);
   out["mean_lux"] = diff.mean_lux;
   out["largest_change"] = diff.largest();
-  out["surfaces"] = nlohmann::ordered_json::array();
+  out["surfaces"] = Json::array();
   for (const SurfaceChange& s : diff.surfaces)
     out["surfaces"].push_back({{"name", s.name},
                                {"material", s.material},
@@ -230,7 +231,7 @@ void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std
                      {"net_of_brighter", t->net_of_brighter},
                      {"bias", t->bias}};
   if (texels.bands) {
-    out["bands"] = {{"all", bands_json(texels.bands->all)}, {"surfaces", nlohmann::ordered_json::array()}};
+    out["bands"] = {{"all", bands_json(texels.bands->all)}, {"surfaces", Json::array()}};
     for (const PartBands& p : texels.bands->parts) {
       auto json = bands_json(p.errors);
       json["name"] = texels.parts[p.part].name;
@@ -240,10 +241,10 @@ void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std
   for (const auto& [name, kind] : kinds)
     out["sections"][name] = {{"before", {{"sections", kind.sections[0]}, {"bytes", kind.bytes[0]}}},
                              {"after", {{"sections", kind.sections[1]}, {"bytes", kind.bytes[1]}}}};
-  out["provenance"] = nlohmann::ordered_json::array();
+  out["provenance"] = Json::array();
   for (const OptionChange& o : diff.options)
     out["provenance"].push_back({{"name", o.name}, {"before", o.before}, {"after", o.after}});
-  fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  fmt::print("{}\n", out.dump(2));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
+#include "formats/core/json.h"
 #include "formats/export/mesh_obj.h"
 #include "formats/inspect/commands.h"
 #include "formats/inspect/extraction.h"
@@ -123,8 +123,7 @@ Status Extraction::mesh() {
 
 Status Extraction::finish(const std::filesystem::path& source) {
   const Json out{{"schema", kJsonSchema}, {"source", source.filename().string()}, {"entries", index_}};
-  ORIEL_TRY_VOID(write_file_atomically(folder_ / "index.json",
-                                       bytes_of_text(out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")));
+  ORIEL_TRY_VOID(write_file_atomically(folder_ / "index.json", bytes_of_text(out.dump(2) + "\n")));
   fmt::print("{}\n", (folder_ / "index.json").string());
   return {};
 }

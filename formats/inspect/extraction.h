@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
 #include "formats/pack/pack.h"
@@ -15,8 +15,6 @@ namespace oriel::inspect {
 // One file after another into the folder; index.json lists those that were written.
 class Extraction {
  public:
-  using Json = nlohmann::ordered_json;
-
   Extraction(const Pack& pack, std::filesystem::path folder) : pack_(pack), folder_(std::move(folder)) {
     index_ = Json::array();
   }

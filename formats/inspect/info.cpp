@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/export/summary.h"
 #include "formats/inspect/commands.h"
 #include "formats/inspect/info_reflections.h"
@@ -16,8 +16,6 @@
 
 namespace oriel::inspect {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::size_t valid_probes(const LightField& field) {
   return static_cast<std::size_t>(
@@ -239,8 +237,8 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["version"] = index.version;
   out["bytes"] = index.file_bytes;
   // validate() has seen that these are JSON objects, or empty.
-  out["provenance"] = pack.provenance.empty() ? Json() : Json::parse(pack.provenance);
-  out["plan"] = pack.plan.empty() ? Json() : Json::parse(pack.plan);
+  out["provenance"] = pack.provenance.empty() ? Json() : Json::parse(pack.provenance).value();
+  out["plan"] = pack.plan.empty() ? Json() : Json::parse(pack.plan).value();
   out["sections"] = sections_json(index);
   out["mesh"] = mesh_json(pack.mesh);
   out["sky"] = triple(pack.sky);
@@ -369,8 +367,7 @@ void print_text(const std::filesystem::path& path, const PackIndex& index, const
   for (const auto& camera : pack.cameras) fmt::print("camera '{}'\n", camera.name);
   for (const auto& p : pack.paths) fmt::print("path '{}': {} keys\n", p.name, p.keys.size());
   for (const auto& [name, text] : {std::pair("provenance", &pack.provenance), std::pair("plan", &pack.plan)})
-    if (!text->empty())
-      fmt::print("\n{}: {}\n", name, Json::parse(*text).dump(2, ' ', false, Json::error_handler_t::replace));
+    if (!text->empty()) fmt::print("\n{}: {}\n", name, Json::parse(*text).value().dump(2));
 }
 
 }  // namespace
@@ -390,7 +387,7 @@ int info(const std::filesystem::path& path, bool json) {
     if (issue.severity == Severity::kError)
       return at_path({ErrorCode::kInvalid, fmt::format("issue {}: {}", issue.number, issue.message), issue.section});
   if (json)
-    fmt::print("{}\n", describe(path, *index, *pack).dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", describe(path, *index, *pack).dump(2));
   else
     print_text(path, *index, *pack);
   return 0;

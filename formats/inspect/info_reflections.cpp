@@ -7,8 +7,6 @@
 namespace oriel::inspect {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // As stored, valid pixels or not; 0 where there are none.
 double radiance_bytes_per_pixel(const PackIndex& index, const Pack& pack) {
   double bytes = 0, pixels = 0;

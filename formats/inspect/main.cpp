@@ -1,9 +1,8 @@
 // oriel-inspect: what a pack holds, and whether it can be trusted. docs/oriel-inspect.md is its page.
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <functional>
 #include <system_error>
 
+#include "formats/cli/command.h"
 #include "formats/inspect/commands.h"
 
 namespace oriel::inspect {
@@ -39,22 +38,29 @@ Examples:
 docs/oriel-inspect.md explains every line of the output, docs/format.md the file.)";
 
 struct Arguments {
-  std::string pack, after, scene, texture = "auto";
-  std::filesystem::path output;
+  std::filesystem::path pack, after, scene, output;
+  std::string texture = "auto";
   bool json = false;
   WhyRequest why;
   ExtractOptions extract;
   DiffOptions diff;
   ExportOptions exported;
   WebRequest web;
-  std::function<int()> run;  // the command that was named
+  int code = 0;  // of the command that was named
 };
 
-CLI::App* add_command(CLI::App& app, const char* name, const char* description, Arguments& a,
-                      std::function<int()> run) {
-  CLI::App* command = app.add_subcommand(name, description);
-  command->callback([&a, run = std::move(run)] { a.run = run; });
-  return command;
+constexpr const char *kArguments = "Arguments", *kOptions = "Options";
+
+Option pack_argument(Arguments& a) {
+  return {"PACK", kArguments, "The .oriel file", path(a.pack, "PACK"), Use::kRequired};
+}
+
+ToolCommand command(const char* name, const char* help, std::vector<Option> options, Arguments& a,
+                    int (*run)(const Arguments&)) {
+  return {.name = name, .help = help, .footer = "", .options = std::move(options), .run = [&a, run]() -> Status {
+            a.code = run(a);
+            return {};
+          }};
 }
 
 ExportOptions with_coding(const Arguments& a) {
@@ -64,118 +70,106 @@ ExportOptions with_coding(const Arguments& a) {
   return out;
 }
 
-void add_checks(CLI::App& app, Arguments& a) {
-  auto* info_command = add_command(app, "info", "Show sections, sizes, maps, statistics and the options of the bake", a,
-                                   [&a] { return info(a.pack, a.json); });
-  info_command->add_option("PACK", a.pack, "The .oriel file")->required();
-  info_command->add_flag("--json", a.json, "Print JSON: stable names, one object, for programs to read");
-
-  auto* validate_command = add_command(app, "validate", "Check all checksums and the meaning of every number", a,
-                                       [&a] { return validate(a.pack, a.scene, a.json); });
-  validate_command->add_option("PACK", a.pack, "The .oriel file")->required();
-  validate_command->add_flag("--json", a.json, "Print the issues as JSON");
-  validate_command->add_option("--scene", a.scene,
-                               "The scene file: tell which files changed since it was baked; then exit code 5");
-}
-
-void add_why(CLI::App& app, Arguments& a) {
-  auto* command = add_command(app, "why", "Tell why a place is lit, or dark, as it is: hidden by what, lit by what", a,
-                              [&a] { return why(a.pack, a.why); });
-  command->add_option("PACK", a.pack, "The .oriel file")->required();
-  command->add_option("--at", a.why.at, "The place, world metres: the nearest surface within half a metre is asked")
-      ->required()
-      ->type_name("X,Y,Z");
-  command->add_option("--from", a.why.from, "Where it is seen from: of two sides in one place the one that faces this")
-      ->type_name("X,Y,Z");
-  command->add_flag("--json", a.why.json, "Print JSON");
-}
-
-void add_diff(CLI::App& app, Arguments& a) {
-  auto* command = add_command(app, "diff", "Tell two packs of one building apart: light by surface, sections, options",
-                              a, [&a] { return diff(a.pack, a.after, a.diff); });
-  command->add_option("BEFORE", a.pack, "An .oriel file")->required();
-  command->add_option("AFTER", a.after, "The one to compare with it")->required();
-  command->add_flag("--json", a.diff.json, "Print JSON: all surfaces");
-  command
-      ->add_option("--tolerance", a.diff.tolerance,
-                   "Share of a surface's light that may change beyond noise, for instance 0.02: more is exit code 5")
-      ->check(CLI::Range(0.0, 1e6));
-  command->add_option("--surfaces", a.diff.surfaces, "How many surfaces to list, those that changed most first")
-      ->capture_default_str();
-}
-
-void add_writers(CLI::App& app, Arguments& a) {
-  auto* extract_command = add_command(app, "extract", "Write the maps as EXR and PNG files, and index.json", a,
-                                      [&a] { return extract(a.pack, a.extract); });
-  extract_command->add_option("PACK", a.pack, "The .oriel file")->required();
-  extract_command->add_option("--kind", a.extract.kind, "What to write: " + extract_kinds())->capture_default_str();
-  extract_command->add_option("-o,--output", a.extract.folder, "The folder to write to; it is made where it is missing")
-      ->required();
-
-  auto* report_command = add_command(app, "report", "Write one HTML page: maps, surfaces, errors, sizes, options", a,
-                                     [&a] { return page(a.pack, a.output); });
-  report_command->add_option("PACK", a.pack, "The .oriel file")->required();
-  report_command->add_option("-o,--output", a.output, "The page to write")->required();
-
-  auto* export_command = add_command(app, "export", "Write the scene with its light, or its probes, for other programs",
-                                     a, [&a] { return export_pack(a.pack, a.output, with_coding(a)); });
-  export_command->add_option("PACK", a.pack, "The .oriel file")->required();
-  export_command->add_option("-o,--output", a.output, "The .glb file to write; with --as probes a folder")->required();
-  export_command
-      ->add_option("--as", a.exported.as,
-                   "emissive: any viewer shows the light as it is; lightmap: EXR and KTX2 files beside the scene; "
-                   "probes: what curved reflectors see as KTX2 cubes, and the split-sum table")
-      ->check(CLI::IsMember({"emissive", "lightmap", "probes"}))
-      ->capture_default_str();
-  export_command
-      ->add_option(
-          "--texture", a.texture,
-          "What KTX2 files hold: bc6h, rgb9e5, or auto: BC6H where it rounds light by at most a quarter of its "
-          "standard error")
-      ->check(CLI::IsMember({"auto", "bc6h", "rgb9e5"}))
-      ->capture_default_str();
-}
-
-void add_web(CLI::App& app, Arguments& a) {
-  auto* command = add_command(app, "web", "Write a folder for any web server: a walkthrough in a browser", a,
-                              [&a] { return web(a.pack, a.web); });
-  command->add_option("PACK", a.pack, "The .oriel file")->required();
-  command->add_option("-o,--output", a.web.folder, "The folder to write to; it is made where it is missing")
-      ->required();
-  command->add_option("--title", a.web.title, "What the page is called; unless told the pack's file name");
-  command->add_option("--picture", a.web.picture,
-                      "A PNG file, as oriel-play writes them, for browsers in which the walkthrough cannot run");
-  command
-      ->add_option_function<std::string>(
-          "--serve",
-          [&a](const std::string& port) {
-            a.web.serve = static_cast<std::uint16_t>(port.empty() ? 0 : std::stoi(port));
+// "" is a free one.
+OptionValue port(std::optional<std::uint16_t>& out) {
+  return {"[PORT]",
+          [&out](const std::string& typed) -> Status {
+            int found = 0;
+            if (!typed.empty()) ORIEL_TRY_VOID(number(found, 0, 65535).set(typed));
+            out = static_cast<std::uint16_t>(found);
+            return {};
           },
-          "Then show the folder to browsers on this machine, and to nobody else, until Ctrl-C; on this port, or on a "
-          "free one")
-      ->type_name("[PORT]")
-      ->expected(0, 1)
-      ->check(CLI::Range(0, 65535));
+          [&out] { return out ? std::to_string(*out) : ""; }};
+}
+
+std::vector<ToolCommand> readers(Arguments& a) {
+  return {
+      command("info", "Show sections, sizes, maps, statistics and the options of the bake",
+              {pack_argument(a),
+               {"--json", kOptions, "Print JSON: stable names, one object, for programs to read", flag(a.json),
+                Use::kEveryday}},
+              a, [](const Arguments& given) { return info(given.pack, given.json); }),
+      command("validate", "Check all checksums and the meaning of every number",
+              {pack_argument(a),
+               {"--json", kOptions, "Print the issues as JSON", flag(a.json), Use::kEveryday},
+               {"--scene", kOptions, "The scene file: tell which files changed since it was baked; then exit code 5",
+                path(a.scene, "FILE"), Use::kEveryday}},
+              a, [](const Arguments& given) { return validate(given.pack, given.scene, given.json); }),
+      command("why", "Tell why a place is lit, or dark, as it is: hidden by what, lit by what",
+              {pack_argument(a),
+               {"--at", kOptions, "The place, world metres: the nearest surface within half a metre is asked",
+                text(a.why.at, "X,Y,Z"), Use::kRequired},
+               {"--from", kOptions, "Where it is seen from: of two sides in one place the one that faces this",
+                text(a.why.from, "X,Y,Z"), Use::kEveryday},
+               {"--json", kOptions, "Print JSON", flag(a.why.json), Use::kEveryday}},
+              a, [](const Arguments& given) { return why(given.pack, given.why); }),
+      command("diff", "Tell two packs of one building apart: light by surface, sections, options",
+              {{"BEFORE", kArguments, "An .oriel file", path(a.pack, "PACK"), Use::kRequired},
+               {"AFTER", kArguments, "The one to compare with it", path(a.after, "PACK"), Use::kRequired},
+               {"--json", kOptions, "Print JSON: all surfaces", flag(a.diff.json), Use::kEveryday},
+               {"--tolerance", kOptions,
+                "Share of a surface's light that may change beyond noise, for instance 0.02: more is exit code 5",
+                number(a.diff.tolerance, 0, 1e6), Use::kEveryday},
+               {"--surfaces", kOptions, "How many surfaces to list, those that changed most first",
+                number(a.diff.surfaces, 0, 18446744073709551615.0), Use::kEveryday}},
+              a, [](const Arguments& given) { return diff(given.pack, given.after, given.diff); })};
+}
+
+std::vector<ToolCommand> writers(Arguments& a) {
+  static const std::string kKindHelp = "What to write: " + extract_kinds();
+  return {
+      command("extract", "Write the maps as EXR and PNG files, and index.json",
+              {pack_argument(a),
+               {"--kind", kOptions, kKindHelp.c_str(), text(a.extract.kind, "KIND"), Use::kEveryday},
+               {"-o,--output", kOptions, "The folder to write to; it is made where it is missing",
+                path(a.extract.folder, "DIR"), Use::kRequired}},
+              a, [](const Arguments& given) { return extract(given.pack, given.extract); }),
+      command(
+          "report", "Write one HTML page: maps, surfaces, errors, sizes, options",
+          {pack_argument(a), {"-o,--output", kOptions, "The page to write", path(a.output, "FILE"), Use::kRequired}}, a,
+          [](const Arguments& given) { return page(given.pack, given.output); }),
+      command("export", "Write the scene with its light, or its probes, for other programs",
+              {pack_argument(a),
+               {"-o,--output", kOptions, "The .glb file to write; with --as probes a folder",
+                path(a.output, "FILE|DIR"), Use::kRequired},
+               {"--as", kOptions,
+                "emissive: any viewer shows the light as it is; lightmap: EXR and KTX2 files beside the scene; probes: "
+                "what curved reflectors see as KTX2 cubes, and the split-sum table",
+                one_of(a.exported.as, {"emissive", "lightmap", "probes"}), Use::kEveryday},
+               {"--texture", kOptions,
+                "What KTX2 files hold: bc6h, rgb9e5, or auto: BC6H where it rounds light by at most a quarter of its "
+                "standard error",
+                one_of(a.texture, {"auto", "bc6h", "rgb9e5"}), Use::kEveryday}},
+              a, [](const Arguments& given) { return export_pack(given.pack, given.output, with_coding(given)); }),
+      command("web", "Write a folder for any web server: a walkthrough in a browser",
+              {pack_argument(a),
+               {"-o,--output", kOptions, "The folder to write to; it is made where it is missing",
+                path(a.web.folder, "DIR"), Use::kRequired},
+               {"--title", kOptions, "What the page is called; unless told the pack's file name",
+                text(a.web.title, "TEXT"), Use::kEveryday},
+               {"--picture", kOptions,
+                "A PNG file, as oriel-play writes them, for browsers in which the walkthrough cannot run",
+                path(a.web.picture, "FILE"), Use::kEveryday},
+               {"--serve", kOptions,
+                "Then show the folder to browsers on this machine, and to nobody else, until Ctrl-C; on this port, or "
+                "on a free one",
+                port(a.web.serve), Use::kEveryday}},
+              a, [](const Arguments& given) { return web(given.pack, given.web); })};
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("oriel-inspect: tells what an .oriel pack holds and whether it can be trusted.", "oriel-inspect");
-  app.set_version_flag("--version", std::string("oriel-inspect ") + kVersion);
-  app.footer(kFooter);
-  app.require_subcommand(1);
   Arguments arguments;
-  add_checks(app, arguments);
-  add_why(app, arguments);
-  add_diff(app, arguments);
-  add_writers(app, arguments);
-  add_web(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    const int code = app.exit(e);
-    return code == 0 ? 0 : static_cast<int>(ErrorCode::kUsage);
-  }
-  return arguments.run();
+  CommandLine line{kVersion,
+                   {.name = "oriel-inspect",
+                    .help = "oriel-inspect: tells what an .oriel pack holds and whether it can be trusted.",
+                    .footer = kFooter,
+                    .options = {},
+                    .commands = readers(arguments)}};
+  for (ToolCommand& writer : writers(arguments)) line.command.commands.push_back(std::move(writer));
+  const auto parsed = parse(line, argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) return *code;
+  const Status done = std::get<const ToolCommand*>(parsed)->run();
+  return done ? arguments.code : report(done.error());
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // `report` and `export`: packs for people and programs that read none.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/export/lightmap_texture.h"
 #include "formats/export/probes.h"
 #include "formats/export/report.h"
@@ -57,7 +56,7 @@ Status write_probes(const Pack& pack, const std::filesystem::path& folder, Texel
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return fail(ErrorCode::kIo, folder.string(), "cannot be made: {}", error.message());
-  nlohmann::ordered_json cubes = nlohmann::ordered_json::array();
+  Json cubes = Json::array();
   for (std::size_t i = 0; i < pack.surround_maps.size(); ++i) {
     const SurroundMap& map = pack.surround_maps[i];
     const ProbeCube cube = probe_cube(map, coding);
@@ -73,7 +72,7 @@ Status write_probes(const Pack& pack, const std::filesystem::path& folder, Texel
     fmt::print("{}: {}, {} cd/m2 a unit, rounded by {:.2g} %\n", (folder / name).string(), name_of(coding), cube.scale,
                100 * cube.rounding);
   }
-  nlohmann::ordered_json index = {{"cubes", std::move(cubes)}};
+  Json index = {{"cubes", std::move(cubes)}};
   if (!pack.split_reflectance.table.empty()) {
     ORIEL_TRY_VOID(write_texture(folder / "dfg.ktx2", dfg_texture(pack.split_reflectance, kDfgSide)));
     index["dfg"] = {

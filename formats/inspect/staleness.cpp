@@ -1,7 +1,6 @@
-#include <nlohmann/json.hpp>
-
 #include "formats/core/file.h"
 #include "formats/core/hash.h"
+#include "formats/core/json.h"
 #include "formats/inspect/commands.h"
 
 namespace oriel::inspect {
@@ -9,8 +8,7 @@ namespace oriel::inspect {
 // The first input is the scene itself, whatever it is called now; the others lie beside it. Skies and profiles are
 // known by their names alone and are looked for there too.
 Result<std::vector<std::string>> changed_inputs(const Pack& pack, const std::filesystem::path& scene) {
-  using Json = nlohmann::json;
-  const Json provenance = Json::parse(pack.provenance, nullptr, false);
+  const Json provenance = Json::parse(pack.provenance).value_or(Json());
   const Json inputs = provenance.is_object() ? provenance.value("inputs", Json()) : Json();
   if (!inputs.is_array() || inputs.empty())
     return invalid("provenance", "found no hashes of inputs, expected a list: nothing is known of what was baked");

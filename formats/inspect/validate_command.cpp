@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/inspect/commands.h"
 #include "formats/pack/reader.h"
 
@@ -23,18 +23,18 @@ void print_text(const std::vector<Issue>& issues, std::size_t errors) {
 
 void print_json(const std::filesystem::path& path, const std::vector<Issue>& issues,
                 const std::optional<std::vector<std::string>>& changed, std::size_t errors) {
-  nlohmann::ordered_json out;
+  Json out;
   out["schema"] = kJsonSchema;
   out["file"] = path.string();
   out["valid"] = errors == 0;
-  out["issues"] = nlohmann::ordered_json::array();
+  out["issues"] = Json::array();
   for (const auto& issue : issues)
     out["issues"].push_back({{"number", issue.number},
                              {"severity", issue.severity == Severity::kError ? "error" : "warning"},
                              {"section", issue.section},
                              {"message", issue.message}});
   if (changed) out["changed_inputs"] = *changed;
-  fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  fmt::print("{}\n", out.dump(2));
 }
 
 }  // namespace

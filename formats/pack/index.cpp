@@ -11,10 +11,6 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint64_t align(std::uint64_t offset) {
-  return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
-}
-
 template <class T>
 T load(std::span<const std::byte> file, std::size_t offset) {
   T value;
@@ -134,13 +130,13 @@ Result<PackIndex> read_index(std::span<const std::byte> file, std::uint64_t file
                         record.raw_bytes,
                         record.count,
                         record.checksum,
-                        align(end) - end,
+                        section_offset_from(end) - end,
                         nth,
                         section_label(record.kind, nth)};
     if ((record.flags & ~kSectionOptional) != 0 || record.reserved0 != 0 || record.reserved1 != 0)
       return invalid(section.label, "found reserved bits that are not zero");
     ORIEL_TRY_VOID(check_kind(section, nth));
-    ORIEL_TRY_VOID(check_sizes(section, align(end), file_bytes));
+    ORIEL_TRY_VOID(check_sizes(section, section_offset_from(end), file_bytes));
     // Each addend is at most kMaxExpansion times the file's length; the sum is checked before it can wrap.
     if (section.raw_bytes > kMaxRawBytes || (raw_total += section.raw_bytes) > kMaxRawBytes)
       return invalid(section.label, "the sections hold more than the accepted {} bytes when decompressed",

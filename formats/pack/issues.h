@@ -1,7 +1,7 @@
 // Collects issues. Used by validate's parts only.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <concepts>
@@ -78,12 +78,17 @@ class IssueList {
 inline bool is_finite(const Vec2& v) {
   return std::isfinite(v.x) && std::isfinite(v.y);
 }
+inline constexpr const char* kNotNegative = "finite numbers from 0 up";
+inline constexpr float kLengthLimit = 1e18f;  // of lengths, so that their squares stay finite
 // Comparisons with NaN are false, so NaN is never within.
 inline bool within(float v, float low, float high) {
   return static_cast<int>(v >= low) & static_cast<int>(v <= high);
 }
 inline bool within(const Vec3& v, float low, float high) {
   return within(v.x, low, high) && within(v.y, low, high) && within(v.z, low, high);
+}
+inline bool bounded(const Vec3& v) {
+  return within(v, -kLengthLimit, kLengthLimit);
 }
 inline bool not_negative(float v) {
   return within(v, 0, std::numeric_limits<float>::max());

@@ -17,6 +17,10 @@ namespace oriel {
 inline constexpr std::array<std::uint8_t, 8> kPackMagic = {0x8F, 'O', 'R', 'I', '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t kPackVersion = 1;
 inline constexpr std::uint64_t kSectionAlignment = 64;
+// The first place from `offset` on where a section may begin.
+constexpr std::uint64_t section_offset_from(std::uint64_t offset) {
+  return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
+}
 
 struct FileHeader {
   std::array<std::uint8_t, 8> magic;

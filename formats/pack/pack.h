@@ -36,6 +36,14 @@ struct UnknownSection {
 };
 
 struct Pack {
+  // In pack.cpp, so that not every file compiles them.
+  Pack();
+  ~Pack();
+  Pack(const Pack&);
+  Pack(Pack&&) noexcept;
+  Pack& operator=(const Pack&);
+  Pack& operator=(Pack&&) noexcept;
+
   // JSON: tool, version, every option, seed, hashes of the inputs.
   std::string provenance;
   // JSON: what was modelled, what was omitted and why, errors and costs per stage.

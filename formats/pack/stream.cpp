@@ -14,10 +14,6 @@ namespace {
 // docs/format.md).
 constexpr int kZstdLevel = 3;
 
-std::uint64_t align(std::uint64_t offset) {
-  return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
-}
-
 using Compressor = std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)>;
 
 Compressor make_compressor() {
@@ -63,7 +59,7 @@ Status PackStream::begin(SectionRecord record) {
                    kMaxRawBytes);
   const auto* known = find_section_kind(record.kind);
   record.flags = !known || known->optional ? kSectionOptional : 0;
-  record.offset = end_ = align(end_);
+  record.offset = end_ = section_offset_from(end_);
   records_.push_back(record);
   hash_.reset();
   return put_(end_, {});  // the padding before it is there even where nothing follows

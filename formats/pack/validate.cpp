@@ -1,7 +1,6 @@
 #include "formats/pack/validate.h"
 
-#include <nlohmann/json.hpp>
-
+#include "formats/core/json.h"
 #include "formats/pack/issues.h"
 
 namespace oriel {
@@ -74,7 +73,7 @@ void validate_json(int number, std::uint32_t kind, const std::string& text, Issu
   list.in_section(kind);
   if (text.empty()) return;
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos || text[first] != '{' || !nlohmann::json::accept(text))
+  if (first == std::string::npos || text[first] != '{' || !Json::parse(text))
     list.error(number, "is not a JSON object");
 }
 

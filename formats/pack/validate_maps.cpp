@@ -20,10 +20,8 @@ bool check_area(int number, std::uint32_t width, std::uint32_t height, std::init
   return good;
 }
 
-const auto light = [](const Vec3& v) { return not_negative(v); };
+const auto is_light = [](const Vec3& v) { return not_negative(v); };
 constexpr std::size_t kMuch = 1 << 17;  // texels: looking at them takes longer than starting threads
-constexpr float kFarthest = 1e18f;      // of lengths and their inverses, so that their squares stay finite
-constexpr const char* kLight = "finite numbers from 0 up";
 
 bool is_rigid(const Mat4& m) {
   for (int column = 0; column < 4; ++column)
@@ -65,7 +63,7 @@ void validate_reflector(const Pack& pack, std::size_t i, const Reflector& r, Iss
                text_of(r.lower), text_of(r.upper));
   if (!not_negative(r.area_m2) || !not_negative(r.flatness_m))
     list.error(404, "reflector {} ('{}'): found area {} and flatness {}, expected {}", i, r.name, r.area_m2,
-               r.flatness_m, kLight);
+               r.flatness_m, kNotNegative);
   check_triangles(405, pack, i, r, list);
   if (std::uint64_t{r.first_map} + r.map_count > pack.radiance_maps.size()) {
     list.error(406, "reflector {} ('{}'): found radiance maps {} to {}, expected at most {}", i, r.name, r.first_map,
@@ -143,8 +141,7 @@ void validate_vertex_light(const Pack& pack, IssueList& list) {
   if (light.size() != pack.mesh.positions.size())
     list.error(307, "found light of {} vertices, expected that of the mesh's {}", light.size(),
                pack.mesh.positions.size());
-  list.each(
-      308, "light", light, [](const Vec3& v) { return not_negative(v); }, "finite numbers from 0 up");
+  list.each(308, "light", light, is_light, kNotNegative);
 }
 
 void validate_cells(std::span<const std::uint32_t> cells, const IVec2& size, const IVec2& details, IssueList& list) {
@@ -170,8 +167,8 @@ void validate_pixels(const LightmapPage& page, IssueList& list) {
   if (!check_area(301, page.width, page.height, {page.irradiance.size(), page.standard_error.size(), page.state.size()},
                   list))
     return;
-  list.each(302, "texels of irradiance", page.irradiance, light, kLight);
-  list.each(303, "texels of standard error", page.standard_error, light, kLight);
+  list.each(302, "texels of irradiance", page.irradiance, is_light, kNotNegative);
+  list.each(303, "texels of standard error", page.standard_error, is_light, kNotNegative);
   const IVec2 size(page.width, page.height), details(page.detail_width, page.detail_height);
   if (page.detail.size() != std::size_t{page.detail_width} * page.detail_height || page.detail_width > kMaxDetailSide ||
       page.detail_height > kMaxDetailSide || page.cell.size() != (page.detail.empty() ? 0 : page.state.size())) {
@@ -180,7 +177,7 @@ void validate_pixels(const LightmapPage& page, IssueList& list) {
                page.detail.size(), page.cell.size(), page.detail_width, page.detail_height, page.state.size());
     return;
   }
-  list.each(305, "points of details", page.detail, light, kLight);
+  list.each(305, "points of details", page.detail, is_light, kNotNegative);
   validate_cells(page.cell, size, details, list);
   if (page.direction.empty() || !check_area(304, page.width, page.height, {page.direction.size()}, list)) return;
   list.each(
@@ -217,7 +214,7 @@ void validate_radiance_maps(const Pack& pack, ImagePixels pixels, IssueList& all
 void validate_pixels(const RadianceMap& map, IssueList& list) {
   if (!check_area(411, map.width, map.height, {map.radiance.size(), map.disparity.size(), map.valid.size()}, list))
     return;
-  list.each(415, "pixels of radiance", map.radiance, light, kLight);
+  list.each(415, "pixels of radiance", map.radiance, is_light, kNotNegative);
   list.each(
       416, "pixels of disparity", map.disparity, [](float d) { return within(d, 0, 1); }, "0 to 1");
   check_validity(417, map.valid, list);
@@ -238,8 +235,7 @@ void validate_surround_maps(const Pack& pack, ImagePixels pixels, IssueList& lis
   for (std::size_t i = 0; i < pack.surround_maps.size(); ++i) {
     const SurroundMap& map = pack.surround_maps[i];
     list.in_section(kSurroundMapSection, i);
-    if (!within(map.centre, -kFarthest, kFarthest))
-      list.error(441, "found centre {}, expected finite numbers", text_of(map.centre));
+    if (!bounded(map.centre)) list.error(441, "found centre {}, expected finite numbers", text_of(map.centre));
     if (!std::has_single_bit(map.size)) list.error(442, "found {} texels a side, expected a power of two", map.size);
     if (pixels == ImagePixels::kHere)
       validate_pixels(map, list);
@@ -251,9 +247,9 @@ void validate_surround_maps(const Pack& pack, ImagePixels pixels, IssueList& lis
 void validate_pixels(const SurroundMap& map, IssueList& list) {
   if (!check_area(442, map.size, map.size, {map.radiance.size(), map.inverse_distance.size(), map.valid.size()}, list))
     return;
-  list.each(443, "texels of radiance", map.radiance, light, kLight);
+  list.each(443, "texels of radiance", map.radiance, is_light, kNotNegative);
   list.each(
-      444, "texels of inverse distance", map.inverse_distance, [](float d) { return within(d, 0, kFarthest); },
+      444, "texels of inverse distance", map.inverse_distance, [](float d) { return within(d, 0, kLengthLimit); },
       "0 to 1e18");
   check_validity(445, map.valid, list);
 }

@@ -6,8 +6,6 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kLight = "finite numbers from 0 up";
-
 // size² numbers from 0 up with sum 1.
 void validate_weights(std::size_t i, std::uint32_t size, const std::vector<float>& weights, IssueList& list) {
   if (size % 2 == 0 || size > kMaxSide || weights.size() != std::size_t{size} * size) {
@@ -17,7 +15,7 @@ void validate_weights(std::size_t i, std::uint32_t size, const std::vector<float
   }
   const std::size_t before = list.issues.size();
   list.each(
-      503, "kernel weights", weights, [](float w) { return not_negative(w); }, kLight);
+      503, "kernel weights", weights, [](float w) { return not_negative(w); }, kNotNegative);
   double sum = 0;
   for (const float w : weights) sum += w;
   if (list.issues.size() == before && !(std::abs(sum - 1) <= 1e-4))

@@ -12,11 +12,6 @@ static std::string text_of(const LightProbe& p) {
 
 namespace {
 
-constexpr float kLimit = 1e18f;  // of lengths, so that their squares stay finite
-
-bool bounded(const Vec3& v) {
-  return within(v, -kLimit, kLimit);
-}
 bool all_finite(const std::vector<float>& values) {
   return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
 }
@@ -132,10 +127,10 @@ void validate_light_field(const Pack& pack, IssueList& list) {
   std::uint64_t grid = 1;
   for (std::size_t a = 0; a < 3; ++a) {
     shape &= field.size[a] >= 1 && field.size[a] <= kMaxSide;
-    shape &= within(field.cell_m[static_cast<int>(a)], 1e-9f, kLimit);
+    shape &= within(field.cell_m[static_cast<int>(a)], 1e-9f, kLengthLimit);
     grid *= std::min(field.size[a], kMaxSide);
   }
-  if (!shape || grid > field.cells.size() || !bounded(field.lower) || !within(field.depth_cap_m, 1e-9f, kLimit) ||
+  if (!shape || grid > field.cells.size() || !bounded(field.lower) || !within(field.depth_cap_m, 1e-9f, kLengthLimit) ||
       !not_negative(field.error) || field.lights.size() > kMaxBrightLights)
     return list.error(741,
                       "found {} bands, {} depth texels a side up to {} m, {} x {} x {} cells of {} from {}, {} in "

@@ -8,12 +8,6 @@
 namespace oriel {
 namespace {
 
-constexpr float kLimit = 1e18f;  // of lengths, so that their squares stay finite
-
-bool bounded(const Vec3& v) {
-  return within(v, -kLimit, kLimit);
-}
-
 // Convex, in a plane within a thousandth of its size, and of an area.
 bool is_convex_polygon(const std::vector<Vec3>& corners) {
   const std::size_t n = corners.size();
@@ -149,12 +143,12 @@ void validate_walk_grids(const Pack& pack, IssueList& list) {
         g.floor_y.size() != std::size_t{g.width} * g.height)
       list.error(721, "walk grid {}: found {} heights for {} x {} cells, expected their product, 1 to {} a side", i,
                  g.floor_y.size(), g.width, g.height, kMaxSide);
-    if (!is_finite(g.lower) || !within(g.cell_m, 1e-6f, kLimit) || !within(g.eye_height_m, 0, kLimit))
+    if (!is_finite(g.lower) || !within(g.cell_m, 1e-6f, kLengthLimit) || !within(g.eye_height_m, 0, kLengthLimit))
       list.error(722, "walk grid {}: found corner {}, cells of {} and eyes {} over the floor, expected finite numbers",
                  i, text_of(g.lower), g.cell_m, g.eye_height_m);
     list.each(
-        723, "floor heights", g.floor_y, [](float y) { return std::isnan(y) || within(y, -kLimit, kLimit); },
-        "finite numbers, or none");
+        723, "floor heights", g.floor_y,
+        [](float y) { return std::isnan(y) || within(y, -kLengthLimit, kLengthLimit); }, "finite numbers, or none");
   }
 }
 

@@ -11,8 +11,8 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kRays = 32, kFirstRays = 8;  // to a polygon; the first alone where they agree
-constexpr float kOnEdge = 0.05f;                     // cells by which a node may lie beside a triangle
+constexpr std::uint32_t kRaysToPolygon = 32, kFirstRaysToPolygon = 8;  // to a polygon; the first alone where they agree
+constexpr float kOnEdge = 0.05f;  // cells by which a node may lie beside a triangle
 
 // Over a plane, as a point of it sees the polygon: twice Lambert's vector, steradians times cosine.
 Vec3 vector_of(const Emitter& emitter, const Vec3& point, const Vec3& normal) {
@@ -127,8 +127,8 @@ class Viewer {
     if (!polygon.two_sided && glm::dot(node - polygon.corners[0], front_of(polygon)) <= 0) return 0;
     LampScene::Blockers last;
     std::uint32_t over = 0, seen = 0;
-    for (std::uint32_t i = 0; i < kRays; ++i) {
-      if (i == kFirstRays && (seen == 0 || seen == over)) break;
+    for (std::uint32_t i = 0; i < kRaysToPolygon; ++i) {
+      if (i == kFirstRaysToPolygon && (seen == 0 || seen == over)) break;
       const Vec3 to = point_of(polygon, shifted_r2(i, row));
       if (!(glm::dot(to - node, normal) > 0)) continue;
       ++over;

@@ -11,7 +11,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kNone = BouncedLight::kNone;
+constexpr std::uint32_t kNoRow = BouncedLight::kNone;
 constexpr std::uint32_t kMostRays = 64, kFewestRays = 8;  // of a texel
 constexpr std::size_t kMostInAll = std::size_t{1} << 25;  // of 4 bytes each
 constexpr std::uint32_t kPlaces = 8;                      // of a texel, whose reflectance is the mean
@@ -41,8 +41,8 @@ LiveBounces::LiveBounces(const LampScene& scene, std::span<const LightmapPage> p
     return points[page][k].index < pages_[page].irradiance.size();
   };
   for (std::uint32_t p = 0; p < pages.size(); ++p) {
-    row_at_.emplace_back(pages[p].irradiance.size(), kNone);
-    row_of_.emplace_back(points[p].size(), kNone);
+    row_at_.emplace_back(pages[p].irradiance.size(), kNoRow);
+    row_of_.emplace_back(points[p].size(), kNoRow);
     for (std::size_t k = 0; k < points[p].size(); ++k) {
       if (!is_texel(p, k)) continue;
       row_at_[p][points[p][k].index] = static_cast<std::uint32_t>(rows_.size());
@@ -54,7 +54,7 @@ LiveBounces::LiveBounces(const LampScene& scene, std::span<const LightmapPage> p
     for (std::size_t k = 0; k < points[p].size(); ++k) {
       if (is_texel(p, k)) continue;
       const TexelsAround around = texels_around(pages[p], points[p][k]);
-      if (std::ranges::all_of(around.texel, [&](std::size_t t) { return row_at_[p][t] == kNone; })) add(p, k);
+      if (std::ranges::all_of(around.texel, [&](std::size_t t) { return row_at_[p][t] == kNoRow; })) add(p, k);
     }
   look_again(scene);
 }
@@ -96,7 +96,7 @@ std::uint32_t LiveBounces::met(std::size_t row, std::uint32_t ray) const {
   const PagePoint& point = *rows_[row].point;
   const Vec3 direction = cosine_direction(shifted_r2(ray, static_cast<std::uint32_t>(row)), point.normal);
   const auto lit = scene_->lit_place(point.position + scene_->offset_m() * point.normal, direction);
-  return lit && lit->page < pages_.size() ? row_near(*lit) : kNone;
+  return lit && lit->page < pages_.size() ? row_near(*lit) : kNoRow;
 }
 
 bool LiveBounces::in_plane(const PagePoint& point, const Vec3& position, const Vec3& normal) const {
@@ -113,13 +113,13 @@ std::uint32_t LiveBounces::row_near(const LampScene::LitPlace& place) const {
   const auto row_of_texel = [&](int x, int y) {
     return row_at_[place.page][static_cast<std::size_t>(y) * page.width + static_cast<std::size_t>(x)];
   };
-  if (const std::uint32_t row = row_of_texel(at.x, at.y); row != kNone) return row;
-  std::uint32_t best = kNone;
+  if (const std::uint32_t row = row_of_texel(at.x, at.y); row != kNoRow) return row;
+  std::uint32_t best = kNoRow;
   float least = std::numeric_limits<float>::infinity();
   for (int y = std::max(at.y - kFarthest, 0); y <= std::min(at.y + kFarthest, size.y - 1); ++y)
     for (int x = std::max(at.x - kFarthest, 0); x <= std::min(at.x + kFarthest, size.x - 1); ++x) {
       const std::uint32_t row = row_of_texel(x, y);
-      if (row == kNone || glm::dot(rows_[row].point->normal, place.normal) < kAlike) continue;
+      if (row == kNoRow || glm::dot(rows_[row].point->normal, place.normal) < kAlike) continue;
       const float distance = glm::length(rows_[row].point->position - place.position);
       if (distance < least) best = row, least = distance;
     }
@@ -131,7 +131,7 @@ LiveBounces::Light LiveBounces::gathered(std::size_t row, std::span<const Light>
   for (const std::vector<std::uint32_t>& round : rounds_)
     for (std::uint32_t i = 0; i < kRound; ++i) {
       const std::uint32_t met = round[row * kRound + i];
-      if (met != kNone) sum.now += light[met].now, sum.baked += light[met].baked;
+      if (met != kNoRow) sum.now += light[met].now, sum.baked += light[met].baked;
     }
   const float each = 1 / static_cast<float>(std::max(rays(), 1u));
   return {sum.now * each, sum.baked * each};
@@ -144,7 +144,7 @@ LiveSum LiveBounces::summed(std::size_t row, std::span<const Light> light) const
   for (const std::vector<std::uint32_t>& round : rounds_)
     for (std::uint32_t i = 0; i < kRound; ++i) {
       const std::uint32_t met = round[row * kRound + i];
-      if (met == kNone) continue;
+      if (met == kNoRow) continue;
       const Vec3 now = light[met].now / count, baked = light[met].baked / count;
       sum.now += now, sum.baked += baked;
       const double x = luminance(now), y = luminance(baked);
@@ -163,7 +163,7 @@ LiveSum LiveBounces::smoothed(std::size_t row, std::span<const LiveSum> sums) co
   for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
     for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
       const std::uint32_t other = row_at_[page][static_cast<std::size_t>(v) * pages_[page].width + u];
-      if (other == kNone) continue;
+      if (other == kNoRow) continue;
       if (!in_plane(*rows_[other].point, point->position, point->normal)) continue;
       const float weight = static_cast<float>((2 - std::abs(u - x)) * (2 - std::abs(v - y)));
       add_share(mean, weight, sums[other]);

@@ -16,7 +16,7 @@ constexpr int kWord = 32;  // texels
 constexpr std::uint32_t kNone = ~0u;
 constexpr float kSure = 1e-5f;  // of lengths: which side of a face a sample is on is then known
 // As OccluderView has it: nearer to a sample's height than this nothing is projected.
-constexpr double kLeastHeight = 0x1p-20;
+constexpr double kLeastRise = 0x1p-20;
 
 using F32x16 = float __attribute__((vector_size(64)));
 using I32x16 = std::int32_t __attribute__((vector_size(64)));
@@ -92,7 +92,7 @@ struct SilhouetteShadows::Kernel {
     double lowest = 1e300;
     for (const DVec3& a : place.apexes) lowest = std::min(lowest, a.z);
     casts = high > 0, cuts = low < 0;
-    return !(high > 0) || high < lowest * (1 - kLeastHeight);
+    return !(high > 0) || high < lowest * (1 - kLeastRise);
   }
 
   // Which side of each face the samples are on, sixteen faces at once.

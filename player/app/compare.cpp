@@ -106,7 +106,7 @@ Status write_difference(const std::string& path, const FloatImage& picture) {
 Status report(const std::string& text, const std::string& json, const FloatImage& picture, double flip,
               const PlayArguments& arguments) {
   std::fwrite(text.data(), 1, text.size(), stdout);
-  if (!arguments.json.empty()) ORIEL_TRY_VOID(write_file_atomically(arguments.json, std::as_bytes(std::span(json))));
+  if (!arguments.json.empty()) ORIEL_TRY_VOID(write_text_atomically(arguments.json, json));
   if (!arguments.output.empty()) ORIEL_TRY_VOID(write_difference(arguments.output, picture));
   if (arguments.max_flip && !(flip <= *arguments.max_flip))
     return fail(ErrorCode::kDifferent, arguments.reference, "found a FLIP of {:.4g}, expected at most {}", flip,

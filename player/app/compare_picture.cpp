@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "formats/core/json.h"
 #include "formats/image/display.h"
 #include "formats/image/flip.h"
 
@@ -49,8 +49,8 @@ std::string difference_text(const PictureDifference& d) {
 }
 
 std::string difference_json(const PictureDifference& d, std::optional<double> max_flip) {
-  nlohmann::ordered_json json{{"width", d.width},     {"height", d.height}, {"changed_pixels", d.changed},
-                              {"largest", d.largest}, {"flip", d.flip},     {"worst_flip", d.worst_flip}};
+  Json json{{"width", d.width},     {"height", d.height}, {"changed_pixels", d.changed},
+            {"largest", d.largest}, {"flip", d.flip},     {"worst_flip", d.worst_flip}};
   if (d.visible) json["visible"] = d.visible->rms, json["visible_share"] = d.visible->share;
   if (max_flip) {
     json["max_flip"] = *max_flip;

@@ -30,6 +30,7 @@ oriel_install_completion(oriel-bake tools)
 oriel_install(oriel-preview tools)
 oriel_install_completion(oriel-preview tools)
 oriel_install(oriel-inspect tools)
+oriel_install_completion(oriel-inspect tools)
 
 set(CPACK_PACKAGE_NAME oriel)
 set(CPACK_PACKAGE_VENDOR Oriel)

@@ -15,7 +15,7 @@ struct Texel {
   float weight = 0, alpha = 0;
 };
 
-struct Level {
+struct CutoutLevel {
   int width = 0, height = 0;
   std::vector<Texel> texels;
   Texel& at(int x, int y) { return texels[static_cast<std::size_t>(y) * width + x]; }
@@ -40,8 +40,8 @@ void for_covered(int i, int from, int to, F visit) {
 
 // at(x, y): the texel of the level before.
 template <class At>
-Level next_level(int width, int height, At at) {
-  Level out{std::max(1, width / 2), std::max(1, height / 2), {}};
+CutoutLevel next_level(int width, int height, At at) {
+  CutoutLevel out{std::max(1, width / 2), std::max(1, height / 2), {}};
   out.texels.resize(static_cast<std::size_t>(out.width) * out.height);
   for (int y = 0; y < out.height; ++y) {
     for (int x = 0; x < out.width; ++x) {
@@ -64,7 +64,7 @@ std::uint8_t encoded(float value) {
 }
 
 // What alpha is multiplied by, so that the share of the level's texels that reach the cutoff is `coverage`.
-float alpha_scale(const Level& level, float coverage, float cutoff) {
+float alpha_scale(const CutoutLevel& level, float coverage, float cutoff) {
   const auto size = static_cast<long>(level.texels.size());
   const long wanted = std::min(std::lround(coverage * static_cast<float>(size)), size);
   const auto passing = std::ranges::count_if(level.texels, [&](const Texel& t) { return t.alpha >= cutoff; });
@@ -82,7 +82,7 @@ float alpha_scale(const Level& level, float coverage, float cutoff) {
   return least > 0 ? (cutoff + 1.0f / 255) / least : 1;
 }
 
-std::vector<std::uint8_t> encoded(const Level& level, float scale) {
+std::vector<std::uint8_t> encoded(const CutoutLevel& level, float scale) {
   std::vector<std::uint8_t> out;
   out.reserve(4 * level.texels.size());
   for (const Texel& t : level.texels) {
@@ -98,15 +98,16 @@ std::vector<std::vector<std::uint8_t>> cutout_mips(const Texture& texture, float
   std::vector<std::vector<std::uint8_t>> out{texture.texels};
   const int width = static_cast<int>(texture.width), height = static_cast<int>(texture.height);
   if (width <= 1 && height <= 1) return out;
-  std::vector<Level> levels{next_level(width, height, [&](int x, int y) { return texel_of(texture, x, y, cutoff); })};
+  std::vector<CutoutLevel> levels{
+      next_level(width, height, [&](int x, int y) { return texel_of(texture, x, y, cutoff); })};
   while (levels.back().texels.size() > 1) {
-    Level& fine = levels.back();
+    CutoutLevel& fine = levels.back();
     levels.push_back(next_level(fine.width, fine.height, [&](int x, int y) { return fine.at(x, y); }));
   }
   const float coverage = levels.back().texels.front().weight;
   // Coarse to fine: who has no colour takes that of the texel above.
   for (std::size_t i = levels.size() - 1; i-- > 0;) {
-    Level &coarse = levels[i + 1], &fine = levels[i];
+    CutoutLevel &coarse = levels[i + 1], &fine = levels[i];
     for (int y = 0; y < fine.height; ++y) {
       for (int x = 0; x < fine.width; ++x) {
         Texel& t = fine.at(x, y);
@@ -117,7 +118,7 @@ std::vector<std::vector<std::uint8_t>> cutout_mips(const Texture& texture, float
       }
     }
   }
-  for (const Level& level : levels)
+  for (const CutoutLevel& level : levels)
     out.push_back(encoded(level, cutoff > 0 ? alpha_scale(level, coverage, cutoff) : 1.0f));
   return out;
 }

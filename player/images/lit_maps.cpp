@@ -55,8 +55,8 @@ LightmapPage as_lightmap(const HalfPage& page) {
   return out;
 }
 
-// For one of several jobs in the background.
-constexpr unsigned kThreads = 4;
+// Threads of one of several jobs in the background, each with a map.
+constexpr unsigned kMapsAtOnce = 4;
 
 }  // namespace
 
@@ -126,7 +126,7 @@ Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarse
   for (const ReflectorElement& element : elements_[reflector]) {
     std::vector<RadianceMap> maps(element.maps.size());
     std::vector<Status> loaded(maps.size());
-    for_each_parallel(maps.size(), kThreads, [&](std::size_t m) {
+    for_each_parallel(maps.size(), kMapsAtOnce, [&](std::size_t m) {
       if (*abandoned_) {
         loaded[m] = fail(ErrorCode::kStopped, "images", "nobody waits for them any more");
         return;

@@ -42,7 +42,7 @@ class Coding {
   std::array<std::uint8_t, 4096> guess_{};     // the code of a value's lower neighbour
 };
 
-struct Level {
+struct MeanLevel {
   int width = 0, height = 0;
   std::vector<Vec4> texels;
 };
@@ -68,8 +68,8 @@ std::vector<Covered> cover(int from, int to) {
 }
 
 template <class At>
-Level halved(int width, int height, const At& at) {
-  Level out{std::max(1, width / 2), std::max(1, height / 2), {}};
+MeanLevel halved(int width, int height, const At& at) {
+  MeanLevel out{std::max(1, width / 2), std::max(1, height / 2), {}};
   out.texels.reserve(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
   const std::vector<Covered> columns = cover(width, out.width), rows = cover(height, out.height);
   for (const Covered& row : rows)
@@ -92,7 +92,7 @@ std::vector<std::vector<std::uint8_t>> mean_mips(const Texture& texture, Encodin
   std::vector<std::vector<std::uint8_t>> out{texture.texels};
   const int width = static_cast<int>(texture.width), height = static_cast<int>(texture.height);
   if (width <= 1 && height <= 1) return out;
-  Level level = halved(width, height, [&](int x, int y) {
+  MeanLevel level = halved(width, height, [&](int x, int y) {
     const std::uint8_t* t =
         &texture.texels[4 * (static_cast<std::size_t>(y) * texture.width + static_cast<std::size_t>(x))];
     return Vec4(color.decoded(t[0]), color.decoded(t[1]), color.decoded(t[2]), linear.decoded(t[3]));

@@ -42,11 +42,11 @@ RangeGrid halved(const RangeGrid& fine, const IVec2& size, int around) {
 }
 
 // Light with its weight in a.
-using LightLevel = std::vector<Vec4>;
+using ReliefLight = std::vector<Vec4>;
 
 // The same, and beside what has light the mean of that.
-LightLevel filled_beside(const LightLevel& level, int width, int height) {
-  LightLevel out = level;
+ReliefLight filled_beside(const ReliefLight& level, int width, int height) {
+  ReliefLight out = level;
   const auto at = [&](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   };
@@ -64,9 +64,9 @@ LightLevel filled_beside(const LightLevel& level, int width, int height) {
   return out;
 }
 
-LightLevel halved_light(const LightLevel& fine, int width, int height) {
+ReliefLight halved_light(const ReliefLight& fine, int width, int height) {
   const int w = std::max(width / 2, 1), h = std::max(height / 2, 1);
-  LightLevel out;
+  ReliefLight out;
   out.reserve(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
@@ -107,7 +107,7 @@ Relief make_relief(const RadianceMap& map) {
 LightLevels make_light_levels(const RadianceMap& map) {
   LightLevels out;
   float brightest = 0;
-  LightLevel level(map.radiance.size(), Vec4(0));
+  ReliefLight level(map.radiance.size(), Vec4(0));
   for (std::size_t i = 0; i < level.size(); ++i) {
     if (!is_usable(map, i)) continue;
     level[i] = Vec4(map.radiance[i], 1);

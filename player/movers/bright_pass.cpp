@@ -28,16 +28,6 @@ Mat4 box_from_pack(const PlacedMover& placed) {
   return scale * glm::inverse(placed.pack_from_object);
 }
 
-ShadowBox box_around(const PlacedMover& placed) {
-  const Bounds& box = placed.mover->bounds;
-  ShadowBox out;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const Vec3 upper(i & 1, i >> 1 & 1, i >> 2);
-    out[i] = Vec3(placed.pack_from_object * Vec4(glm::mix(box.lower, box.upper, upper), 1));
-  }
-  return out;
-}
-
 // The screen's rectangle that holds points: lower x, y, upper x, y. All of it where one is behind the eye.
 Vec4 rectangle_of(const Mat4& clip_from_pack, std::span<const Vec3> points) {
   Vec2 lower(1), upper(-1);
@@ -217,7 +207,7 @@ void BrightPass::add_to_movers(const FrameContext& context, const LitMovers& lit
     if (!r.visible) continue;
     light_.set("u_box_from_pack", box_from_pack(*r.mover));
     light_.set("u_share", r.share);
-    draw_rectangle(id_of(r.index), rectangle_of(context.view.clip_from_pack, box_around(*r.mover)), context.stats);
+    draw_rectangle(id_of(r.index), rectangle_of(context.view.clip_from_pack, corners_of(*r.mover)), context.stats);
   }
 }
 
@@ -269,7 +259,7 @@ Status BrightPass::draw_light(const FrameContext& context, const LitMovers& lit)
     draw(
         of_movers_,
         [&](const LitMovers::Caster& caster) {
-          for (const std::size_t r : caster.on_movers) draw_box(box_around(*lit.receivers[r].mover), stats);
+          for (const std::size_t r : caster.on_movers) draw_box(corners_of(*lit.receivers[r].mover), stats);
         },
         [] {});
     add_to_movers(context, lit);

@@ -5,7 +5,7 @@
 namespace oriel {
 namespace {
 
-constexpr float kNearest = 2e-4f;  // over the size of what is seen
+constexpr float kNearestSeen = 2e-4f;  // over the size of what is seen
 
 }  // namespace
 
@@ -24,7 +24,7 @@ HemisphereMap hemisphere_of(const LiveLight& light, const Bounds& bounds) {
   // |x| + |y| <= √2 radius, and z >= distance - radius: the scene fills most of the square.
   if (far && distance > radius) map.squeeze = radius / distance;
   map.farthest = 2 * (map.squeeze * (distance + radius) + radius);
-  map.nearest = far ? 0.5f * map.squeeze * std::max(distance - radius, radius) : kNearest * 2 * radius;
+  map.nearest = far ? 0.5f * map.squeeze * std::max(distance - radius, radius) : kNearestSeen * 2 * radius;
   return map;
 }
 

@@ -1,16 +1,23 @@
 #include "player/movers/mover_pass.h"
 
 #include "formats/query/mover_pose.h"
+#include "player/movers/flat_surfaces.h"
 #include "player/scene/surface.h"
 
 namespace oriel {
 namespace {
 
-MoverPose pose_of(const Pack& pack, std::span<const MoverPose> poses, std::size_t i) {
+MoverPose placed_pose(const Pack& pack, std::span<const MoverPose> poses, std::size_t i) {
   return i < poses.size() ? poses[i] : pack.movers[i].rest;
 }
 
 }  // namespace
+
+std::array<Vec3, 8> corners_of(const PlacedMover& placed) {
+  std::array<Vec3, 8> out = corners_of(placed.mover->bounds);
+  for (Vec3& p : out) p = Vec3(placed.pack_from_object * Vec4(p, 1));
+  return out;
+}
 
 std::vector<PlacedMover> place_movers(const GpuScene& scene, const FrameOptions& options) {
   const Pack& pack = scene.pack();
@@ -21,7 +28,7 @@ std::vector<PlacedMover> place_movers(const GpuScene& scene, const FrameOptions&
     placed.mover = &scene.movers()[i];
     const Bounds& box = placed.mover->bounds;
     if (box.empty()) continue;
-    const MoverPose pose = pose_of(pack, options.poses, i);
+    const MoverPose pose = placed_pose(pack, options.poses, i);
     placed.pack_from_object = Mat4(pack_from_object(pose));
     placed.sphere = Vec4(Vec3(placed.pack_from_object * Vec4(box.center(), 1)), box.radius());
     placed.normal_mapped = !mover.mesh.normal_uvs.empty();
@@ -40,7 +47,7 @@ Bounds bounds_with_movers(const GpuScene& scene, std::span<const MoverPose> pose
   for (std::size_t i = 0; i < scene.movers().size(); ++i) {
     const Bounds& box = scene.movers()[i].bounds;
     if (box.empty()) continue;
-    const DMat4 pack_from = pack_from_object(pose_of(scene.pack(), poses, i));
+    const DMat4 pack_from = pack_from_object(placed_pose(scene.pack(), poses, i));
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 upper(corner & 1, corner >> 1 & 1, corner >> 2);
       bounds.extend(Vec3(pack_from * DVec4(DVec3(glm::mix(box.lower, box.upper, upper)), 1)));

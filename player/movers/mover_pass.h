@@ -1,6 +1,8 @@
 // Movers where they stand, in the light that they meet there.
 #pragma once
 
+#include <array>
+
 #include "player/gpu/program.h"
 #include "player/movers/mover_light.h"
 #include "player/scene/frame_context.h"
@@ -17,6 +19,8 @@ struct PlacedMover {
   bool normal_mapped = false;
   int components = 0;
 };
+// Of the box around it, pack space.
+std::array<Vec3, 8> corners_of(const PlacedMover& placed);
 // At the poses of the options. Light is looked up anew.
 std::vector<PlacedMover> place_movers(const GpuScene& scene, const FrameOptions& options);
 

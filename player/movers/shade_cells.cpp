@@ -6,10 +6,10 @@
 namespace oriel {
 namespace {
 
-constexpr double kMargin = 1e-4;      // of the scene's radius
-constexpr double kRounding = 1e-6;    // of its largest coordinate
-constexpr float kFewestMargins = 16;  // that a side which is split is long
-constexpr float kConeMargin = 1e-5f;  // of the cosine
+constexpr double kMargin = 1e-4;        // of the scene's radius
+constexpr double kCellRounding = 1e-6;  // of its largest coordinate
+constexpr float kFewestMargins = 16;    // that a side which is split is long
+constexpr float kConeMargin = 1e-5f;    // of the cosine
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Bounds around(const std::array<Vec3, 3>& corners) {
@@ -76,7 +76,7 @@ class CellSplitter {
     if (!kept.empty()) {
       const double largest = max_component(glm::max(glm::abs(all.lower), glm::abs(all.upper)));
       const double radius = 0.5 * glm::length(DVec3(all.upper) - DVec3(all.lower));
-      margin_ = static_cast<float>(kMargin * radius + kRounding * largest);
+      margin_ = static_cast<float>(kMargin * radius + kCellRounding * largest);
     }
     add({Vec3(-kInfinity), Vec3(kInfinity)}, kept);
   }

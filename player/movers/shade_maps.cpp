@@ -8,7 +8,7 @@ namespace oriel {
 namespace {
 
 constexpr int kLeastSide = 16;
-constexpr std::size_t kMostTexels = std::size_t{1} << 26;  // of 4 bytes, in all maps of movers
+constexpr std::size_t kMostMapTexels = std::size_t{1} << 26;  // of 4 bytes, in all maps of movers
 
 }  // namespace
 
@@ -22,7 +22,7 @@ Result<ShadeMaps> ShadeMaps::create(gpu::Dialect dialect) {
 Status ShadeMaps::begin(const ShadeScene& scene, std::span<const Mover> movers, int side) {
   const auto layers = static_cast<int>(std::max<std::size_t>(scene.lights.size(), 1));
   wanted_side_ = side;
-  while (side > kLeastSide && std::size_t(side) * std::size_t(side) * std::size_t(layers) > kMostTexels) side /= 2;
+  while (side > kLeastSide && std::size_t(side) * std::size_t(side) * std::size_t(layers) > kMostMapTexels) side /= 2;
   gpu::TextureOptions options;
   options.min_filter = options.mag_filter = GL_LINEAR;
   options.compare = true;

@@ -4,9 +4,9 @@
 
 namespace oriel {
 
-constexpr float kWidest = 4;       // tangent: of a light inside the sphere
-constexpr float kNearest = 0.01f;  // share of the distance where maps begin: lamps do not shade themselves
-constexpr float kMargin = 1.01f;   // of the range beyond the sphere
+constexpr float kWidest = 4;             // tangent: of a light inside the sphere
+constexpr float kNearestShadow = 0.01f;  // share of the distance where maps begin: lamps do not shade themselves
+constexpr float kShadowMargin = 1.01f;   // of the range beyond the sphere
 
 Shaft make_shaft(const Vec4& at, const Vec4& sphere) {
   Shaft s;
@@ -22,14 +22,14 @@ Shaft make_shaft(const Vec4& at, const Vec4& sphere) {
 }
 
 Vec2 mover_range(const Shaft& shaft, float radius) {
-  const float reach = std::max(kMargin * radius, 1e-6f);
+  const float reach = std::max(kShadowMargin * radius, 1e-6f);
   if (shaft.parallel) return {-reach, reach};
-  return {std::max(shaft.distance - reach, kNearest * shaft.distance), shaft.distance + reach};
+  return {std::max(shaft.distance - reach, kNearestShadow * shaft.distance), shaft.distance + reach};
 }
 
 Vec2 scene_range(const Shaft& shaft, float reach) {
   if (shaft.parallel) return {-reach, reach};
-  return {kNearest * shaft.distance, shaft.distance + reach};
+  return {kNearestShadow * shaft.distance, shaft.distance + reach};
 }
 
 Mat4 clip_from_pack(const Shaft& shaft, const Vec2& range) {
@@ -68,7 +68,7 @@ Vec2 depth_terms(const Shaft& shaft, const Vec2& range) {
 ShadowCone make_shadow_cone(const Vec4& sphere, const Vec3& center, float radius, bool parallel) {
   ShadowCone cone;
   cone.center = Vec3(sphere);
-  cone.radius = kMargin * sphere.w;
+  cone.radius = kShadowMargin * sphere.w;
   const Vec3 to = parallel ? -center : cone.center - center;
   const float distance = glm::length(to);
   const float sine = parallel ? std::sin(std::atan(radius)) : (cone.radius + radius) / std::max(distance, 1e-12f);

@@ -14,13 +14,7 @@ constexpr int kAtlasSide = 1024, kMostPatches = (kAtlasSide / (2 * kTile)) * (kA
 constexpr double kLargeShare = 0.02;
 constexpr int kSamples = 64, kFewSamples = 16;
 constexpr std::size_t kMostTiles = 1 << 14;  // that are kept
-constexpr int kMostTexels = 256;             // of a patch along a side, about
-
-std::array<Vec3, 8> box_around(const PlacedMover& placed) {
-  std::array<Vec3, 8> out = corners_of(placed.mover->bounds);
-  for (Vec3& p : out) p = Vec3(placed.pack_from_object * Vec4(p, 1));
-  return out;
-}
+constexpr int kMostPatchTexels = 256;        // of a patch along a side, about
 
 DVec3 at(const FlatPlane& plane, const DVec2& p) {
   return plane.origin + plane.x * p.x + plane.y * p.y;
@@ -86,7 +80,7 @@ LightHull hull_of(const LightSamples& light, std::span<const Vec3> place, float 
 
 // What lies in no plane, is in view and may get a mover's shadow.
 Bounds ShadowTextures::rest_below(const LitMovers::Caster& caster, const LitMovers& lit, const Frustum& frustum) const {
-  const auto box = box_around(*caster.mover);
+  const auto box = corners_of(*caster.mover);
   const Mat3 pose(caster.mover->pack_from_object);
   Bounds below;
   for (const Bounds& rest : flat_.rest) {
@@ -101,7 +95,7 @@ Bounds ShadowTextures::rest_below(const LitMovers::Caster& caster, const LitMove
 // Whether the scene may stand between a mover and the points of a light.
 bool ShadowTextures::is_in_the_way(const LitMovers::Caster& caster, const LitMovers& lit) const {
   const Mat3 pose(caster.mover->pack_from_object);
-  LightHull between = hull_of(lit.samples, box_around(*caster.mover), far_);
+  LightHull between = hull_of(lit.samples, corners_of(*caster.mover), far_);
   between.axes.insert(between.axes.end(), {pose[0], pose[1], pose[2]});
   const float touching = static_cast<float>(flat_.touching);
   std::vector<std::uint32_t> open{0};
@@ -132,7 +126,7 @@ void ShadowTextures::plan(const GpuScene& scene, const View& view, LitMovers& li
   const Frustum frustum = make_frustum(view.clip_from_pack);
   for (LitMovers::Caster& caster : lit.casters) {
     if (!caster.on_scene) continue;
-    const std::array<Vec3, 8> box = box_around(*caster.mover);
+    const std::array<Vec3, 8> box = corners_of(*caster.mover);
     std::vector<ShadowPatch> patches;
     for (std::size_t p = 0; p < flat_.planes.size(); ++p) {
       const FlatPlane& plane = flat_.planes[p];
@@ -188,7 +182,7 @@ bool ShadowTextures::place_all(const View& view, double coarser) {
   for (ShadowPatch& patch : patches_) {
     const FlatPlane& plane = flat_.planes[patch.plane];
     const DVec2 size = patch.rect.upper - patch.rect.lower;
-    const double least = std::max(size.x, size.y) / kMostTexels;
+    const double least = std::max(size.x, size.y) / kMostPatchTexels;
     const double wanted = coarser * std::max(pixel_at(view, corners_of(plane, patch.rect)), least);
     lay_texels(plane, static_cast<int>(std::ceil(std::log2(wanted))), patch);
     const IVec2 texels(patch.receiver.width, patch.receiver.height);

@@ -66,4 +66,9 @@ NdcRect project_box(const Mat4& clip_from_pack, const Bounds& box) {
   return all;
 }
 
+float share_of_picture(const NdcRect& rect) {
+  const Vec2 size = glm::max(glm::min(rect.upper, Vec2(1)) - glm::max(rect.lower, Vec2(-1)), Vec2(0));
+  return 0.25f * size.x * size.y;
+}
+
 }  // namespace oriel

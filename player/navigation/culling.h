@@ -45,5 +45,7 @@ struct NdcRect {
 NdcRect project_polygon(const Mat4& clip_from_pack, const std::array<Vec3, 4>& corners);
 // The same around a box, of which what is before the eye counts.
 NdcRect project_box(const Mat4& clip_from_pack, const Bounds& box);
+// Of the view's area, [0,1].
+float share_of_picture(const NdcRect& rect);
 
 }  // namespace oriel

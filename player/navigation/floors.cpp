@@ -11,10 +11,6 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr float kMostStrides = 64;
 constexpr float kSettled = 1e-3f;  // of a step: less is not seen
 
-Vec2 on_map(const Vec3& eye) {
-  return {eye.x, eye.z};
-}
-
 // The cell at a place, if it is one to stand on.
 std::optional<std::size_t> cell_at(const WalkGrid& grid, const Vec2& at) {
   const Vec2 cell = glm::floor((at - grid.lower) / grid.cell_m);

@@ -30,6 +30,11 @@ struct Stand {
   Vec3 eye{0};  // over its middle, pack space
 };
 
+// Where a point is seen from above.
+inline Vec2 on_map(const Vec3& p) {
+  return {p.x, p.z};
+}
+
 class Floors {
  public:
   // eye_height_m: of eyes over all floors; 0: as the grids have it.

@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;
 
 // The three finite numbers of a member.
 Result<DVec3> vector_of(const Json& key, const char* member, const std::string& where) {
-  const auto found = key.is_object() ? key.find(member) : key.end();
+  const Json* found = key.find(member);
   DVec3 out(0);
-  bool good = key.is_object() && found != key.end() && found->is_array() && found->size() == 3;
+  bool good = found && found->is_array() && found->size() == 3;
   for (std::size_t i = 0; good && i < 3; ++i) {
     good = (*found)[i].is_number();
     if (good) out[static_cast<int>(i)] = (*found)[i].get<double>();
@@ -27,9 +26,8 @@ Result<DVec3> vector_of(const Json& key, const char* member, const std::string& 
 }
 
 Result<double> number_of(const Json& object, const char* member, const std::string& where) {
-  const auto found = object.is_object() ? object.find(member) : object.end();
-  if (!object.is_object() || found == object.end() || !found->is_number())
-    return invalid(where, "has no number \"{}\"", member);
+  const Json* found = object.find(member);
+  if (!found || !found->is_number()) return invalid(where, "has no number \"{}\"", member);
   return found->get<double>();
 }
 
@@ -63,26 +61,25 @@ Status write_path(const std::filesystem::path& file, const CameraPath& path, con
     json["keys"].push_back({{"t", double{key.time_s}},
                             {"eye", as_json(DVec3(key.eye) + origin)},
                             {"forward", as_json(DVec3(key.forward))}});
-  const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-  return write_file_atomically(file, std::as_bytes(std::span(text)));
+  return write_text_atomically(file, json.dump(1) + "\n");
 }
 
 Result<CameraPath> read_path(const std::filesystem::path& file, const DVec3& origin) {
   ORIEL_TRY(const Bytes bytes, read_file(file, kMostBytes));
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  const Json json = Json::parse(text, text + bytes.size(), nullptr, false);
+  const auto parsed = Json::parse(bytes);
   const std::string where = file.string();
-  if (json.is_discarded()) return invalid(where, "is no JSON");
+  if (!parsed) return invalid(where, "is no JSON");
+  const Json& json = *parsed;
   ORIEL_TRY(const double version, number_of(json, "oriel_path", where));
   if (version != kVersion) return invalid(where, "found version {}, expected {}", version, kVersion);
   ORIEL_TRY(const double fov_deg, number_of(json, "vertical_fov_deg", where));
   if (!(fov_deg > 0 && fov_deg < 180))
     return invalid(where, "found a field of view of {} degrees, expected 0 to 180, both excluded", fov_deg);
   CameraPath path{file.stem().string(), static_cast<float>(fov_deg * kPi / 180), {}};
-  if (const auto name = json.find("name"); name != json.end() && name->is_string()) path.name = *name;
-  const auto keys = json.find("keys");
-  if (keys == json.end() || !keys->is_array() || keys->empty()) return invalid(where, "has no \"keys\"");
-  for (const Json& key : *keys) {
+  if (json["name"].is_string()) path.name = json["name"].get<std::string>();
+  const Json& keys = json["keys"];
+  if (!keys.is_array() || keys.empty()) return invalid(where, "has no \"keys\"");
+  for (const Json& key : keys) {
     const float last = path.keys.empty() ? std::numeric_limits<float>::lowest() : path.keys.back().time_s;
     ORIEL_TRY(const CameraKey read, read_key(key, origin, last, fmt::format("{}: key {}", where, path.keys.size())));
     path.keys.push_back(read);

@@ -12,10 +12,6 @@ constexpr float kMostTime_s = 5;  // of a way, however long
 constexpr float kStuck_s = 0.5f;
 constexpr std::size_t kMostCells = 2'000'000;  // that are looked at: a second or two
 
-Vec2 on_map(const Vec3& p) {
-  return {p.x, p.z};
-}
-
 // A* over the places where Floors::stand finds a floor, from cell to cell and across corners where both sides are free.
 class Search {
  public:

@@ -1,12 +1,11 @@
 #include "player/navigation/zone.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::json;
 
 bool is_near(const WalkGrid& grid, const Vec3& eye) {
   if (!(grid.cell_m > 0) || !is_finite(eye)) return false;
@@ -67,7 +66,7 @@ bool Zone::holds(const Vec3& eye) const {
 
 Zone planned_zone(const Pack& pack) {
   Zone zone;
-  const Json options = member(Json::parse(pack.provenance, nullptr, false), "options");
+  const Json options = member(Json::parse(pack.provenance).value_or(Json()), "options");
   const Json source = member(options, "eyes");
   if (source == "file") {
     zone.eyes = eyes_of_file(member(options, "eye_points"), pack.mesh.origin);

@@ -1,10 +1,10 @@
 #include "player/output/frame_record.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "formats/core/color.h"
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
@@ -14,7 +14,7 @@ double median(std::vector<double> values) {
   return values.empty() ? 0 : values[values.size() / 2];
 }
 
-nlohmann::ordered_json as_json(const MultiPassStats& s) {
+Json as_json(const MultiPassStats& s) {
   return {{"images", s.images},
           {"paths", s.paths},
           {"paths_left_out", s.left_out},
@@ -30,9 +30,9 @@ nlohmann::ordered_json as_json(const MultiPassStats& s) {
           {"build_ms", s.build_ms}};
 }
 
-nlohmann::ordered_json as_json(const FrameRecord& record) {
+Json as_json(const FrameRecord& record) {
   const FrameStats& s = record.stats;
-  nlohmann::ordered_json passes;
+  Json passes;
   for (std::size_t i = 0; i < kPassNames.size(); ++i) passes[kPassNames[i]] = s.ms[i];
   return {{"camera", record.camera},
           {"ms", record.ms},
@@ -138,18 +138,18 @@ void FlickerMeter::add(const std::vector<float>& light) {
 
 Status write_stats(const std::string& file, const PlayArguments& arguments, const std::string& renderer,
                    const std::vector<FrameRecord>& records, const FlickerMeter* flicker) {
-  nlohmann::ordered_json out{{"pack", arguments.pack},
-                             {"renderer", renderer},
-                             {"width", arguments.width},
-                             {"height", arguments.height},
-                             {"options", options_json(arguments)},
-                             {"frames", nlohmann::ordered_json::array()}};
+  Json out{{"pack", arguments.pack},
+           {"renderer", renderer},
+           {"width", arguments.width},
+           {"height", arguments.height},
+           {"options", options_json(arguments)},
+           {"frames", Json::array()}};
   for (const FrameRecord& record : records) out["frames"].push_back(as_json(record));
   if (!records.empty()) out["median"] = as_json(median_record(records));
   if (flicker != nullptr) {
     out["flicker"] = {{"mean", flicker->mean()}, {"worst", flicker->worst()}, {"worst_frame", flicker->worst_frame()}};
   }
-  const std::string text = out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  const std::string text = out.dump(1) + "\n";
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
   return write_file_atomically(file, Bytes(bytes, bytes + text.size()));
 }

@@ -71,6 +71,9 @@ std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
 
 }  // namespace
 
+Renderer::Renderer() = default;
+Renderer::~Renderer() = default;
+
 Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   std::unique_ptr<Renderer> renderer(new Renderer);
   renderer->device_ = device;

@@ -19,6 +19,7 @@ namespace oriel {
 
 class Renderer {
  public:
+  ~Renderer();
   // Compiles all shaders. Error kRuntime holds what the driver said.
   static Result<std::unique_ptr<Renderer>> create(const gpu::Device& device);
 
@@ -49,7 +50,7 @@ class Renderer {
   Result<std::vector<std::uint8_t>> read_display(float ev100, ToneCurve curve);
 
  private:
-  Renderer() = default;
+  Renderer();
   Status ensure_frame(int width, int height, int samples, bool halves);
   // Over the depth of the opaque scene, of which that is shown: movers, reflections and the scene's own light.
   Status draw_light(const FrameContext& context, std::span<const DrawBatch> shown);

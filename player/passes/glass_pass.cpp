@@ -25,16 +25,10 @@ constexpr std::ptrdiff_t kMostWindows = 4;  // bodies of a frame that have one, 
 constexpr float kLeastBend = 8;             // pixels by which glass shifts things, for that
 // What reflectors show of glass is as in the frame for bodies that cover so much of the whole picture, the largest in
 // an image, after so few of them; where a reflector leaves less than half of the light, or blurs, with fewer rays.
-constexpr float kLeastInImage = 3e-4f, kMirroring = 0.5f;
+constexpr float kLeastInImage = 3e-4f, kMirroringGlass = 0.5f;
 constexpr std::size_t kMostInImage = 8;
 constexpr int kMostMirrors = 2;
 constexpr int kLooks = 32, kPaneLooks = 12, kCoarseLooks = 4;  // of a lobe
-
-float share_of_picture(const NdcRect& rect) {
-  if (rect.empty) return 0;
-  const Vec2 size = glm::max(glm::min(rect.upper, Vec2(1)) - glm::max(rect.lower, Vec2(-1)), Vec2(0));
-  return 0.25f * size.x * size.y;
-}
 
 // Depth of a view without a mirror's near plane, from where that one has it: of x, y, z, 1 in normalised device
 // coordinates.
@@ -104,7 +98,7 @@ Status GlassPass::prepare(const FrameContext& context, const ScenePass& scene_pa
   }
   cubes_.start(scene);
   bodies_.resize(scene.glass().size());
-  few_looks_ = options.coarse || target.blurs || target.mirrors > 1 || target.reflectance < kMirroring;
+  few_looks_ = options.coarse || target.blurs || target.mirrors > 1 || target.reflectance < kMirroringGlass;
   choose_windows(context, target, seen);
   for (const auto& [share, i] : seen) {
     bodies_[i].shown = true;

@@ -39,11 +39,6 @@ int most_orders(const FrameOptions& options) {
   return options.coarse ? 1 : options.orders.value_or(kMostOrders);
 }
 
-float share_of_picture(const NdcRect& rect) {
-  const Vec2 size = glm::max(glm::min(rect.upper, Vec2(1)) - glm::max(rect.lower, Vec2(-1)), Vec2(0));
-  return 0.25f * size.x * size.y;
-}
-
 // At 60 degrees, largest channel; 0 where nothing is known.
 float reflectance_of(const Pack& pack, std::uint32_t material) {
   const std::int32_t row = pack.materials[material].fresnel_map;

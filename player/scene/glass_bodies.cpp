@@ -17,7 +17,7 @@ constexpr float kOnPlane = 1e-4f;     // of a body's radius
 constexpr float kSameNormal = 1e-6f;  // 1 - cosine
 constexpr double kHidden = 1e-3;      // of a body's area, that its middle may not see
 
-struct Triangle {
+struct BodyTriangle {
   std::array<std::uint32_t, 3> corners;  // into Mesh::positions
   std::int32_t page;
 };
@@ -27,14 +27,14 @@ struct ByPlace {
 };
 
 // Triangles that share positions, in the order of their first ones.
-std::vector<std::vector<Triangle>> connected(const Mesh& mesh, const std::vector<Triangle>& triangles) {
+std::vector<std::vector<BodyTriangle>> connected(const Mesh& mesh, const std::vector<BodyTriangle>& triangles) {
   std::map<Vec3, std::size_t, ByPlace> first;  // a triangle there
   DisjointSets joined(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const std::uint32_t corner : triangles[t].corners)
       joined.join(t, first.try_emplace(mesh.positions[corner], t).first->second);
   std::map<std::size_t, std::size_t> number;
-  std::vector<std::vector<Triangle>> out;
+  std::vector<std::vector<BodyTriangle>> out;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto [at, added] = number.try_emplace(joined.root(t), out.size());
     if (added) out.emplace_back();
@@ -44,15 +44,15 @@ std::vector<std::vector<Triangle>> connected(const Mesh& mesh, const std::vector
 }
 
 // Twice the area long.
-DVec3 normal_of(const Mesh& mesh, const Triangle& t) {
+DVec3 normal_of(const Mesh& mesh, const BodyTriangle& t) {
   const DVec3 a(mesh.positions[t.corners[0]]);
   return glm::cross(DVec3(mesh.positions[t.corners[1]]) - a, DVec3(mesh.positions[t.corners[2]]) - a);
 }
 
-DVec3 middle_of(const Mesh& mesh, const std::vector<Triangle>& shell) {
+DVec3 middle_of(const Mesh& mesh, const std::vector<BodyTriangle>& shell) {
   DVec3 sum(0);
   double area = 0;
-  for (const Triangle& t : shell) {
+  for (const BodyTriangle& t : shell) {
     const double weight = glm::length(normal_of(mesh, t));
     for (const std::uint32_t corner : t.corners) sum += weight / 3 * DVec3(mesh.positions[corner]);
     area += weight;
@@ -60,9 +60,9 @@ DVec3 middle_of(const Mesh& mesh, const std::vector<Triangle>& shell) {
   return area > 0 ? sum / area : sum;
 }
 
-bool is_seen_from(const Mesh& mesh, const std::vector<Triangle>& shell, const DVec3& middle) {
+bool is_seen_from(const Mesh& mesh, const std::vector<BodyTriangle>& shell, const DVec3& middle) {
   double area = 0, hidden = 0;
-  for (const Triangle& t : shell) {
+  for (const BodyTriangle& t : shell) {
     const DVec3 normal = normal_of(mesh, t);
     area += glm::length(normal);
     if (!(glm::dot(normal, DVec3(mesh.positions[t.corners[0]]) - middle) > 0)) hidden += glm::length(normal);
@@ -71,12 +71,12 @@ bool is_seen_from(const Mesh& mesh, const std::vector<Triangle>& shell, const DV
 }
 
 // Whether they enclose something that their fronts face away from: at each edge as many go one way as the other.
-bool encloses(const Mesh& mesh, const std::vector<Triangle>& shell) {
+bool encloses(const Mesh& mesh, const std::vector<BodyTriangle>& shell) {
   std::map<Vec3, int, ByPlace> numbers;
   std::map<std::pair<int, int>, int> edges;
   double volume = 0;
   const DVec3 origin(mesh.positions[shell.front().corners[0]]);
-  for (const Triangle& t : shell) {
+  for (const BodyTriangle& t : shell) {
     std::array<int, 3> at;
     for (std::size_t c = 0; c < 3; ++c)
       at[c] = numbers.try_emplace(mesh.positions[t.corners[c]], static_cast<int>(numbers.size())).first->second;
@@ -89,9 +89,9 @@ bool encloses(const Mesh& mesh, const std::vector<Triangle>& shell) {
   return volume > 0 && std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
 }
 
-std::vector<GlassTriangle> triangles_of(const Mesh& mesh, const std::vector<Triangle>& shell) {
+std::vector<GlassTriangle> triangles_of(const Mesh& mesh, const std::vector<BodyTriangle>& shell) {
   std::vector<GlassTriangle> out;
-  for (const Triangle& t : shell) {
+  for (const BodyTriangle& t : shell) {
     GlassTriangle& triangle = out.emplace_back();
     for (std::size_t c = 0; c < 3; ++c)
       triangle.corners[c] = mesh.positions[t.corners[c]], triangle.normals[c] = mesh.normals[t.corners[c]];
@@ -100,9 +100,9 @@ std::vector<GlassTriangle> triangles_of(const Mesh& mesh, const std::vector<Tria
 }
 
 // None where there are too many, or where the body is not convex.
-std::vector<Vec4> planes_of(const Mesh& mesh, const std::vector<Triangle>& shell, float radius) {
+std::vector<Vec4> planes_of(const Mesh& mesh, const std::vector<BodyTriangle>& shell, float radius) {
   std::vector<Vec4> planes;
-  for (const Triangle& t : shell) {
+  for (const BodyTriangle& t : shell) {
     const DVec3 normal = normal_of(mesh, t);
     if (!(glm::length(normal) > 0)) continue;
     const Vec3 n(glm::normalize(normal));
@@ -114,7 +114,7 @@ std::vector<Vec4> planes_of(const Mesh& mesh, const std::vector<Triangle>& shell
     if (planes.size() == kMaxBodyPlanes) return {};
     planes.emplace_back(n, w);
   }
-  for (const Triangle& t : shell)
+  for (const BodyTriangle& t : shell)
     for (const std::uint32_t corner : t.corners)
       for (const Vec4& p : planes)
         if (glm::dot(Vec3(p), mesh.positions[corner]) + p.w > kOnPlane * radius) return {};
@@ -122,12 +122,12 @@ std::vector<Vec4> planes_of(const Mesh& mesh, const std::vector<Triangle>& shell
 }
 
 // One range a page.
-std::vector<DrawRange> append(const Mesh& mesh, std::vector<Triangle> triangles, std::uint32_t material,
+std::vector<DrawRange> append(const Mesh& mesh, std::vector<BodyTriangle> triangles, std::uint32_t material,
                               std::vector<std::uint32_t>& indices) {
   std::stable_sort(triangles.begin(), triangles.end(),
-                   [](const Triangle& a, const Triangle& b) { return a.page < b.page; });
+                   [](const BodyTriangle& a, const BodyTriangle& b) { return a.page < b.page; });
   std::vector<DrawRange> ranges;
-  for (const Triangle& t : triangles) {
+  for (const BodyTriangle& t : triangles) {
     if (ranges.empty() || ranges.back().lightmap_page != t.page)
       ranges.push_back({static_cast<std::uint32_t>(indices.size()), 0, material, t.page, {}, DrawRange::kNoGroup});
     for (const std::uint32_t corner : t.corners) ranges.back().bounds.extend(mesh.positions[corner]);
@@ -142,13 +142,13 @@ bool is_frosted_pane(const Material& m) {
          !m.unlit;
 }
 
-std::optional<GlassBody> body_of(const Mesh& mesh, const std::vector<Triangle>& shell, const GlassBody& kind) {
+std::optional<GlassBody> body_of(const Mesh& mesh, const std::vector<BodyTriangle>& shell, const GlassBody& kind) {
   const DVec3 middle = middle_of(mesh, shell);
   const bool star = kind.pane || is_seen_from(mesh, shell, middle);
   if (!star && (shell.size() > kMaxTreeTriangles || !encloses(mesh, shell))) return std::nullopt;
   GlassBody body = kind;
   body.centre = Vec3(middle);
-  for (const Triangle& t : shell)
+  for (const BodyTriangle& t : shell)
     for (const std::uint32_t corner : t.corners) {
       body.bounds.extend(mesh.positions[corner]);
       body.radius = std::max(body.radius, glm::length(mesh.positions[corner] - body.centre));
@@ -183,7 +183,7 @@ std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint
   std::vector<GlassBody> bodies;
   for (const GlassBody& kind : kinds_of(pack)) {
     const std::uint32_t material = kind.material;
-    std::vector<Triangle> triangles, left;
+    std::vector<BodyTriangle> triangles, left;
     for (const DrawRange& range : ranges)
       for (std::uint32_t i = 0; range.material == material && i + 2 < range.index_count; i += 3) {
         const std::uint32_t* corner = &indices[range.first_index + i];
@@ -191,7 +191,7 @@ std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint
       }
     if (triangles.empty()) continue;
     std::erase_if(ranges, [&](const DrawRange& range) { return range.material == material; });
-    for (const std::vector<Triangle>& shell : connected(pack.mesh, triangles)) {
+    for (const std::vector<BodyTriangle>& shell : connected(pack.mesh, triangles)) {
       std::optional<GlassBody> body = body_of(pack.mesh, shell, kind);
       if (!body) {
         left.insert(left.end(), shell.begin(), shell.end());

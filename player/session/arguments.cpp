@@ -1,9 +1,9 @@
 #include "player/session/arguments.h"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "formats/cli/command.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 #include "player/session/keys.h"
 #include "player/session/live_options.h"
@@ -59,7 +59,7 @@ OptionValue exposure(std::optional<float>& ev100) {
     return fail(ErrorCode::kUsage, "", "found '{}', expected auto or an exposure value from -40 to 40", typed);
   };
   value.get = [&ev100] { return ev100 ? fmt::format("{}", *ev100) : "auto"; };
-  value.json = [&ev100] { return ev100 ? nlohmann::ordered_json(*ev100) : nlohmann::ordered_json("auto"); };
+  value.json = [&ev100] { return ev100 ? Json(*ev100) : Json("auto"); };
   return value;
 }
 
@@ -70,7 +70,7 @@ OptionValue gpu_memory(std::uint64_t& bytes) {
             return {};
           },
           [&bytes] { return bytes == kNoLimit ? "" : fmt::format("{}B", bytes); },
-          [&bytes] { return bytes == kNoLimit ? nlohmann::ordered_json() : nlohmann::ordered_json(bytes); }};
+          [&bytes] { return bytes == kNoLimit ? Json() : Json(bytes); }};
 }
 
 OptionValue frames(int& count) {
@@ -120,8 +120,7 @@ std::vector<Option> picture_options(PlayArguments& out) {
 std::vector<Option> mover_options(PlayArguments& out) {
   return {
       {"--move", kMovers, "Puts a mover or a lamp there, world metres, and turns it about up by degrees; repeatable",
-       each(out.moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); }),
-       Use::kEveryday},
+       each(out.moves, "NODE=x,y,z[,yaw]", parse_move, text_of), Use::kEveryday},
       {"--time", kMovers, "Seconds into the movers' animations, which repeat; the window goes on from there",
        number(out.time_s, -1e9, 1e9)},
       {"--mover-lights", kMovers,
@@ -157,40 +156,19 @@ std::vector<Option> offscreen_options(PlayArguments& out) {
       {"-o,--output", kOffscreen,
        "With --offscreen: the file (.png as shown, .exr linear cd/m2), or with several cameras a folder",
        text(out.output, "FILE|DIR"), Use::kEveryday},
-      {"--supersample",
-       kOffscreen,
+      {"--supersample", kOffscreen,
        "Pictures and F12 are drawn so many times as wide and as high, and averaged: smooth edges",
-       number(out.supersample, 1, 16),
-       Use::kRare,
-       {},
-       {},
-       {"--compare"}},
-      {"--format",
-       kOffscreen,
-       "Of the files written to a folder",
-       choice(out.format, Names<std::string>{{"png", "png"}, {"exr", "exr"}}),
-       Use::kRare,
-       {},
-       {},
-       {"--compare"}},
-      {"--frames",
-       kOffscreen,
+       number(out.supersample, 1, 16), Use::kRare, "", "", "--compare"},
+      {"--format", kOffscreen, "Of the files written to a folder", one_of(out.format, {"png", "exr"}), Use::kRare, "",
+       "", "--compare"},
+      {"--frames", kOffscreen,
        "Close the window after so many frames. Offscreen: draw each camera so often and report the median time, or so "
        "many frames along --path",
-       frames(out.frames),
-       Use::kRare,
-       {},
-       {},
-       {"--compare"}},
-      {"--panorama",
-       kOffscreen,
+       frames(out.frames), Use::kRare, "", "", "--compare"},
+      {"--panorama", kOffscreen,
        "Offscreen: all that is seen from the camera's eye, latitude and longitude, 2048x1024 unless --size tells; the "
        "middle is the camera's heading",
-       flag(out.panorama),
-       Use::kEveryday,
-       {},
-       {},
-       {"--compare", "--path", "--frames"}},
+       flag(out.panorama), Use::kEveryday, "", "", "--compare --path --frames"},
       {"--stats", kOffscreen,
        "Times as JSON. Offscreen of each pass, with counts and the options; of the window, when it closes, how fast "
        "frames came while something moved and how soon the whole one after it",
@@ -216,33 +194,14 @@ std::vector<Option> path_options(PlayArguments& out) {
        "A path of the pack, or a walk that F9 has recorded. Offscreen: frames along it instead of cameras; prints how "
        "they flicker. In the window: what P plays",
        text(out.path, "NAME|FILE.json"), Use::kEveryday},
-      {"--fps",
-       kPath,
-       "Offscreen: so many frames a second of --path, from its start; --video: 30",
-       fps(out.fps),
-       Use::kRare,
-       {},
-       {},
-       {"--frames"},
-       "--path"},
-      {"--smooth",
-       kPath,
+      {"--fps", kPath, "Offscreen: so many frames a second of --path, from its start; --video: 30", fps(out.fps),
+       Use::kRare, "", "", "--frames", "--path"},
+      {"--smooth", kPath,
        "Average --path over time by a Gaussian of this standard deviation, in seconds, which takes the jerks out",
-       number(out.smooth_s, 0, 60),
-       Use::kRare,
-       {},
-       {},
-       {},
-       "--path"},
-      {"--video",
-       kPath,
+       number(out.smooth_s, 0, 60), Use::kRare, "", "", "", "--path"},
+      {"--video", kPath,
        "Offscreen: --path as a film, by ffmpeg; without it its frames become pictures in the folder NAME-frames",
-       text(out.video, "NAME.mp4"),
-       Use::kEveryday,
-       {},
-       {},
-       {"--frames"},
-       "--path"},
+       text(out.video, "NAME.mp4"), Use::kEveryday, "", "", "--frames", "--path"},
   };
 }
 
@@ -286,6 +245,8 @@ std::vector<Option> window_options(PlayArguments& out) {
        texts(out.cameras, "NAME|N|PATH@S|ex,ey,ez,tx,ty,tz|all"), Use::kEveryday},
       {"--panel", kWindow, "Open the panel at once: brightness, quality, times, what is under the pointer",
        flag(out.panel), Use::kEveryday},
+      {"--log-frames", kWindow, "A line on stderr whenever the window shows something else: for scripts that drive it",
+       flag(out.log_frames)},
       {"--quality", kWindow,
        "auto keeps 15 frames a second while something moves, with coarser frames where the device needs that, and "
        "draws "
@@ -367,9 +328,9 @@ Status settle(const Given& given, PlayArguments& out) {
 
 }  // namespace
 
-nlohmann::ordered_json options_json(const PlayArguments& arguments) {
+Json options_json(const PlayArguments& arguments) {
   PlayArguments copy = arguments;
-  nlohmann::ordered_json json;
+  Json json;
   for (const Option& option : play_options(copy)) record(option, json);
   return json;
 }

@@ -1,12 +1,12 @@
 // The command line of oriel-play.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "formats/core/json.h"
 #include "formats/core/result.h"
 #include "formats/query/mover_pose.h"
 #include "player/images/residency.h"
@@ -63,6 +63,7 @@ struct PlayArguments {
   std::string stats;                    // a file for what the frames cost
   std::uint64_t gpu_memory = kNoLimit;  // bytes of images on the device
   bool panel = false;
+  bool log_frames = false;  // tell scripts what the window shows
   Quality quality = Quality::kAutomatic;
   float eye_height_m = 0;  // of people over the floors; 0: as the pack has it
   bool gl_debug = false;
@@ -80,7 +81,7 @@ inline int samples_of_picture(const PlayArguments& arguments) {
 }
 
 // Those options that can change a frame, by name.
-nlohmann::ordered_json options_json(const PlayArguments& arguments);
+Json options_json(const PlayArguments& arguments);
 
 // The arguments, or the exit code after help or a complaint was printed.
 std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* argv);

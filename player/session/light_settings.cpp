@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "formats/core/color.h"
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/core/text.h"
 #include "formats/query/day_hours.h"
 
@@ -176,10 +176,8 @@ Status set_lights(const Pack& pack, const std::vector<std::string>& changes, std
 }
 
 Result<std::vector<std::string>> read_lights(const std::string& file) {
-  using Json = nlohmann::ordered_json;
   ORIEL_TRY(const Bytes bytes, read_file(file));
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  const Json json = Json::parse(text, text + bytes.size(), nullptr, false);
+  const Json json = Json::parse(bytes).value_or(Json());
   constexpr const char* kExpected = "expected {\"group\": \"0.3 2700K\", …}";
   if (!json.is_object()) return invalid(file, "found no JSON object, {}", kExpected);
   std::vector<std::string> changes;
@@ -192,7 +190,7 @@ Result<std::vector<std::string>> read_lights(const std::string& file) {
 }
 
 std::string lights_json(const Pack& pack, const std::vector<LightSetting>& settings) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  Json json = Json::object();
   const std::vector<LightSetting> before = settings_of(pack);
   if (shown_hour(pack, settings) != shown_hour(pack, before)) json[kHour] = *shown_hour(pack, settings);
   // Hours of a day are set alike.
@@ -214,7 +212,7 @@ std::string lights_json(const Pack& pack, const std::vector<LightSetting>& setti
     if (!s.on) text += " off";
     json[s.hour ? kDay : pack.light_groups[g].name] = text;
   }
-  return json.empty() ? std::string() : json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return json.empty() ? std::string() : json.dump(2);
 }
 
 std::vector<Vec3> factors_of(const Pack& pack, const std::vector<LightSetting>& settings) {

@@ -1,7 +1,6 @@
 #include "player/session/method.h"
 
-#include <nlohmann/json.hpp>
-
+#include "formats/core/json.h"
 #include "player/movers/light_samples.h"
 #include "player/session/option_names.h"
 
@@ -13,9 +12,9 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
        "As published, to compare with, for packs of oriel-bake --method likewise. bastos1999: --reflections points "
        "--blur constant --fill off --fresnel sphere. diefenbach1997: lamps by passes with shadow volumes, in mirrors "
        "and by way of mirrors too, over a lightmap without their light",
-       choice(out.method, Names<ShownMethod>{{"oriel", ShownMethod::kOriel},
-                                             {"bastos1999", ShownMethod::kBastos1999},
-                                             {"diefenbach1997", ShownMethod::kDiefenbach1997}}),
+       choice(out.method, {{"oriel", ShownMethod::kOriel},
+                           {"bastos1999", ShownMethod::kBastos1999},
+                           {"diefenbach1997", ShownMethod::kDiefenbach1997}}),
        Use::kRare, "method"},
       {"--shadow-points", group, "Of --method diefenbach1997: points of a lamp that has a size, each with its passes",
        number(out.frame.multi_pass.points, 1, kMaxLightPoints), Use::kRare, "shadow_points"},
@@ -95,11 +94,9 @@ std::string settle_method(const Given& given, PlayArguments& out) {
 }
 
 std::string method_of(const Pack& pack) {
-  using Json = nlohmann::json;
-  const Json provenance = Json::parse(pack.provenance, nullptr, false);  // a pack's text may be anything
-  const Json::json_pointer at("/options/method");
-  const bool tells = provenance.is_object() && provenance.contains(at) && provenance[at].is_string();
-  return tells ? provenance[at].get<std::string>() : "";
+  const Json provenance = Json::parse(pack.provenance).value_or(Json());  // a pack's text may be anything
+  const Json& method = provenance["options"]["method"];
+  return method.is_string() ? method.get<std::string>() : "";
 }
 
 std::string other_method(const Pack& pack, const PlayArguments& arguments) {

@@ -1,63 +1,61 @@
 // What options' values are called on the command line, and in what the player writes.
 #pragma once
 
-#include <algorithm>
-#include <map>
-#include <string>
-
+#include "formats/cli/option.h"
 #include "player/passes/display_pass.h"
 #include "player/scene/frame_options.h"
 #include "player/session/pace.h"
 
 namespace oriel {
 
-inline const std::map<std::string, ToneCurve> kToneCurves{{"aces", ToneCurve::kAces}, {"none", ToneCurve::kNone}};
-inline const std::map<std::string, Show> kStages{
-    {"all", Show::kAll},           {"M", Show::kM},           {"MK", Show::kMK},
-    {"MKR", Show::kMKR},           {"D", Show::kD},           {"lux", Show::kLux},
-    {"error", Show::kError},       {"texels", Show::kTexels}, {"charts", Show::kCharts},
-    {"overdraw", Show::kOverdraw}, {"zones", Show::kZones}};
-inline const std::map<std::string, Reflections> kReflections{
-    {"chosen", Reflections::kChosen}, {"march", Reflections::kMarch},       {"mesh", Reflections::kMesh},
-    {"points", Reflections::kPoints}, {"geometry", Reflections::kGeometry}, {"off", Reflections::kOff}};
-inline const std::map<std::string, Selection> kSelections{{"angle", Selection::kAngle},
-                                                          {"distance", Selection::kDistance}};
-inline const std::map<std::string, Blur> kBlurs{
-    {"distance", Blur::kDistance}, {"constant", Blur::kConstant}, {"off", Blur::kOff}};
-inline const std::map<std::string, KernelPlace> kKernelPlaces{{"lobe", KernelPlace::kLobe},
-                                                              {"centred", KernelPlace::kCentred}};
-inline const std::map<std::string, Reflectance> kReflectances{{"table", Reflectance::kTable},
-                                                              {"sphere", Reflectance::kSphereMap}};
-inline const std::map<std::string, LightmapFilter> kLightmapFilters{{"bilinear", LightmapFilter::kBilinear},
-                                                                    {"bicubic", LightmapFilter::kBicubic}};
-inline const std::map<std::string, MoverLights> kMoverLights{{"shadowed", MoverLights::kShadowed},
-                                                             {"unshadowed", MoverLights::kUnshadowed},
-                                                             {"harmonics", MoverLights::kHarmonics}};
-inline const std::map<std::string, MoverShadows> kMoverShadows{{"maps", MoverShadows::kMaps},
-                                                               {"textures", MoverShadows::kTextures}};
+inline constexpr Named<ToneCurve> kToneCurves[] = {{"aces", ToneCurve::kAces}, {"none", ToneCurve::kNone}};
+inline constexpr Named<Show> kStages[] = {
+    {"D", Show::kD},           {"M", Show::kM},        {"MK", Show::kMK},
+    {"MKR", Show::kMKR},       {"all", Show::kAll},    {"charts", Show::kCharts},
+    {"error", Show::kError},   {"lux", Show::kLux},    {"overdraw", Show::kOverdraw},
+    {"texels", Show::kTexels}, {"zones", Show::kZones}};
+inline constexpr Named<Reflections> kReflections[] = {
+    {"chosen", Reflections::kChosen}, {"geometry", Reflections::kGeometry}, {"march", Reflections::kMarch},
+    {"mesh", Reflections::kMesh},     {"off", Reflections::kOff},           {"points", Reflections::kPoints}};
+inline constexpr Named<Selection> kSelections[] = {{"angle", Selection::kAngle}, {"distance", Selection::kDistance}};
+inline constexpr Named<Blur> kBlurs[] = {
+    {"constant", Blur::kConstant}, {"distance", Blur::kDistance}, {"off", Blur::kOff}};
+inline constexpr Named<KernelPlace> kKernelPlaces[] = {{"centred", KernelPlace::kCentred},
+                                                       {"lobe", KernelPlace::kLobe}};
+inline constexpr Named<Reflectance> kReflectances[] = {{"sphere", Reflectance::kSphereMap},
+                                                       {"table", Reflectance::kTable}};
+inline constexpr Named<LightmapFilter> kLightmapFilters[] = {{"bicubic", LightmapFilter::kBicubic},
+                                                             {"bilinear", LightmapFilter::kBilinear}};
+inline constexpr Named<MoverLights> kMoverLights[] = {{"harmonics", MoverLights::kHarmonics},
+                                                      {"shadowed", MoverLights::kShadowed},
+                                                      {"unshadowed", MoverLights::kUnshadowed}};
+inline constexpr Named<MoverShadows> kMoverShadows[] = {{"maps", MoverShadows::kMaps},
+                                                        {"textures", MoverShadows::kTextures}};
 
-inline const std::map<std::string, ShadeWork> kShadeWorks{{"each", ShadeWork::kEachLight},
-                                                          {"cells", ShadeWork::kCells},
-                                                          {"few", ShadeWork::kFewPixels},
-                                                          {"merged", ShadeWork::kMerged},
-                                                          {"lists", ShadeWork::kLists}};
-inline const std::map<std::string, bool> kShadePixels{{"half", false}, {"all", true}};
+inline constexpr Named<ShadeWork> kShadeWorks[] = {{"cells", ShadeWork::kCells},
+                                                   {"each", ShadeWork::kEachLight},
+                                                   {"few", ShadeWork::kFewPixels},
+                                                   {"lists", ShadeWork::kLists},
+                                                   {"merged", ShadeWork::kMerged}};
+inline constexpr Named<bool> kShadePixels[] = {{"all", true}, {"half", false}};
 
-inline const std::map<std::string, LiveMode> kLiveModes{
-    {"fitted", LiveMode::kFitted}, {"differential", LiveMode::kDifferential}, {"only", LiveMode::kOnly}};
+inline constexpr Named<LiveMode> kLiveModes[] = {
+    {"differential", LiveMode::kDifferential}, {"fitted", LiveMode::kFitted}, {"only", LiveMode::kOnly}};
 
-inline const std::map<std::string, LiveIndirect> kLiveIndirect{{"texels", LiveIndirect::kTexels},
-                                                               {"lights", LiveIndirect::kLights}};
+inline constexpr Named<LiveIndirect> kLiveIndirect[] = {{"lights", LiveIndirect::kLights},
+                                                        {"texels", LiveIndirect::kTexels}};
 
-inline const std::map<std::string, Quality> kQualities{
-    {"auto", Quality::kAutomatic}, {"full", Quality::kFull}, {"fast", Quality::kFast}};
+inline constexpr Named<Quality> kQualities[] = {
+    {"auto", Quality::kAutomatic}, {"fast", Quality::kFast}, {"full", Quality::kFull}};
 
-inline const std::map<std::string, bool> kSwitch{{"on", true}, {"off", false}};
+inline constexpr Named<bool> kSwitch[] = {{"off", false}, {"on", true}};
 
-// The name of a value that the map has.
-template <class T>
-const std::string& name_of(const std::map<std::string, T>& names, T value) {
-  return std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.second == value; })->first;
+// The name of a value that the table has.
+template <class T, std::size_t N>
+const char* name_of(const Named<T> (&names)[N], T value) {
+  std::size_t i = 0;
+  while (i + 1 < N && names[i].value != value) ++i;
+  return names[i].name;
 }
 
 }  // namespace oriel

@@ -1,8 +1,9 @@
 #include "player/session/pace_record.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <numeric>
+
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
@@ -34,17 +35,17 @@ float PaceRecord::frames_per_s() const {
 
 std::string PaceRecord::json() const {
   const auto n = static_cast<double>(std::max<std::size_t>(moving_ms_.size(), 1));
-  const nlohmann::ordered_json out = {{"moving",
-                                       {{"frames", moving_ms_.size()},
-                                        {"frames_per_s", frames_per_s()},
-                                        {"median_ms", quantile(moving_ms_, 0.5)},
-                                        {"slowest_tenth_ms", quantile(moving_ms_, 0.9)},
-                                        {"slowest_ms", quantile(moving_ms_, 1)},
-                                        {"mean_scale", scales_ / n}}},
-                                      {"whole",
-                                       {{"frames", whole_ms_.size()},
-                                        {"slowest_ms", quantile(whole_ms_, 1)},
-                                        {"slowest_after_motion_s", slowest_rest_s_}}}};
+  const Json out = {{"moving",
+                     {{"frames", moving_ms_.size()},
+                      {"frames_per_s", frames_per_s()},
+                      {"median_ms", quantile(moving_ms_, 0.5)},
+                      {"slowest_tenth_ms", quantile(moving_ms_, 0.9)},
+                      {"slowest_ms", quantile(moving_ms_, 1)},
+                      {"mean_scale", scales_ / n}}},
+                    {"whole",
+                     {{"frames", whole_ms_.size()},
+                      {"slowest_ms", quantile(whole_ms_, 1)},
+                      {"slowest_after_motion_s", slowest_rest_s_}}}};
   return out.dump(1) + "\n";
 }
 

@@ -39,7 +39,7 @@ std::string announce(const Command& command, const Pack& pack, const Session& se
     case Action::kPanel:
       return session.panel ? "panel" : "panel closed";
     case Action::kStage:
-      return "stage " + name_of(kStages, session.frame.show);
+      return fmt::format("stage {}", name_of(kStages, session.frame.show));
     case Action::kFly:
       return session.move.fly ? "flying" : "walking";
     case Action::kOrbit:

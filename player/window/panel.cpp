@@ -26,7 +26,7 @@ void draw_light(Session& session) {
   }
 }
 
-const std::map<std::string, Blur> kSharpness{{"as the material", Blur::kDistance}, {"like a mirror", Blur::kOff}};
+constexpr Named<Blur> kSharpness[] = {{"as the material", Blur::kDistance}, {"like a mirror", Blur::kOff}};
 
 void draw_quality(const FrameMeter& meter, Session& session) {
   choose("quality", kQualities, session.quality);

@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <map>
 #include <string>
 
 #include "player/session/option_names.h"
@@ -22,11 +21,11 @@ inline void text(const std::string& line) {
 }
 
 // A choice by the names that the command line has for it.
-template <class T>
-void choose(const char* label, const std::map<std::string, T>& names, T& value) {
-  if (!ImGui::BeginCombo(label, name_of(names, value).c_str(), ImGuiComboFlags_HeightLargest)) return;
-  for (const auto& [name, each] : names)
-    if (ImGui::Selectable(name.c_str(), each == value)) value = each;
+template <class T, std::size_t N>
+void choose(const char* label, const Named<T> (&names)[N], T& value) {
+  if (!ImGui::BeginCombo(label, name_of(names, value), ImGuiComboFlags_HeightLargest)) return;
+  for (const auto& [name, one] : names)
+    if (ImGui::Selectable(name, one == value)) value = one;
   ImGui::EndCombo();
 }
 

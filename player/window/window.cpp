@@ -17,10 +17,12 @@
 #include "player/session/scene_name.h"
 #include "player/window/announce.h"
 #include "player/window/beside_view.h"
+#include "player/window/frame_log.h"
 #include "player/window/glfw_window.h"
 #include "player/window/gui.h"
 #include "player/window/paced_frame.h"
 #include "player/window/panel.h"
+#include "player/window/pointed.h"
 #include "player/window/window_input.h"
 
 namespace oriel {
@@ -95,32 +97,33 @@ class Loop {
       int width = 0, height = 0;
       glfwGetFramebufferSize(window_.get(), &width, &height);
       if (width < 1 || height < 1 || is_hidden()) {  // nothing to draw, and nothing to hurry for
+        log_.hidden();
         glfwWaitEventsTimeout(0.1);
         continue;
       }
       // A window over monitors that are larger than the device's largest frame shows that in its corner.
       ORIEL_TRY_VOID(draw(std::min(width, device_.texture_size), std::min(height, device_.texture_size), dt_s));
+      log_.shown(session_, input, seen_of(width, height));
       watch.frame(Clock::now(), meter_.loading.busy);
       if (const auto news = watch.news()) fmt::print(stderr, "oriel-play: {}\n", *news);
       if (drawn_ != Pace::Draw::kKeep) meter_.add(static_cast<float>(1000 * seconds_since(last)));
       rest(last);
-      if (meter_.loading.busy || meter_.loading.following) std::this_thread::sleep_until(last + kLoadingFrame);
+      if (is_loading()) std::this_thread::sleep_until(last + kLoadingFrame);
       if (++frames == arguments_.frames) return {};
     }
   }
 
  private:
-  bool is_hidden() const {
-    return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) == GLFW_TRUE ||
-           glfwGetWindowAttrib(window_.get(), GLFW_VISIBLE) != GLFW_TRUE;
+  FrameLog::Seen seen_of(int width, int height) const {
+    const bool rests = drawn_ == Pace::Draw::kKeep && paced_.is_whole();
+    return {{width, height}, scene_->pack().mesh.origin, is(GLFW_FOCUSED), input_.grabbed(), is_loading(), rests};
   }
+  bool is_loading() const { return meter_.loading.busy || meter_.loading.following; }
+  bool is(int attribute) const { return glfwGetWindowAttrib(window_.get(), attribute) == GLFW_TRUE; }
+  bool is_hidden() const { return is(GLFW_ICONIFIED) || !is(GLFW_VISIBLE); }
 
   void act(InputFrame& input, float dt_s) {
-    if (gui_.has_pointer() && !input_.grabbed()) {
-      input.clicked = false;
-      input.move.wheel = 0;
-      input.go_to.reset();
-    }
+    if (gui_.has_pointer() && !input_.grabbed()) input.ignore_pointer();
     for (const Command& command : input.commands) {
       perform(command, scene_->pack(), session_);
       if (const std::string line = announce(command, scene_->pack(), session_); !line.empty()) say(line);
@@ -143,12 +146,14 @@ class Loop {
     int width = 1;
     glfwGetWindowSize(window_.get(), &width, nullptr);
     const float reach = kDividerReach_px / static_cast<float>(std::max(width, 1));
-    const Vec2 last = std::exchange(pointer_, input.pointer);
-    if (drag_divider(input.pointer, input.clicked, input.holding, reach, session_.comparison)) return;
-    const Dragged dragged = drag_movers({input.pointer, last, input.clicked, input.holding, input.turning, input.lamps},
-                                        scene_->pack(), view_, kFarthest * scene_->bounds().radius(), session_);
-    if (dragged.missed) input_.grab(true);
-    if (!dragged.dropped.empty()) fmt::print(stderr, "oriel-play: --move \"{}\"\n", dragged.dropped);
+    for (const PointerStep& step : input.pointer) {
+      const Vec2 last = std::exchange(pointer_, step.at);
+      if (drag_divider(step.at, step.clicked, step.holding, reach, session_.comparison)) continue;
+      const Dragged dragged = drag_movers({step.at, last, step.clicked, step.holding, step.turning, step.lamps},
+                                          scene_->pack(), view_, kFarthest * scene_->bounds().radius(), session_);
+      if (!dragged.dropped.empty()) fmt::print(stderr, "oriel-play: --move \"{}\"\n", dragged.dropped);
+      if (dragged.missed) return input_.grab(true);
+    }
   }
 
   Status draw(int width, int height, float dt_s) {
@@ -183,7 +188,7 @@ class Loop {
     gui_.begin(!input_.grabbed());
     if (seconds_since(said_) > kMessage_s) meter_.message.clear();
     meter_.hint = static_cast<float>(std::clamp((kHint_s - seconds_since(start_)) / kFade_s, 0.0, 1.0));
-    draw_overlay(scene_->pack(), meter_, picked_, session_);
+    draw_overlay(scene_->pack(), meter_, pointed_.surface(), session_);
     gui_.end();
     glfwSwapBuffers(window_.get());
     paced_.shown();
@@ -285,8 +290,7 @@ class Loop {
     first_ = true;
     take_path(scene_->pack(), session_);
     session_.grip.reset();
-    picked_.reset();
-    rays_.reset();
+    pointed_.forget();
     floors_ = Floors(scene_->pack().walk_grids, arguments_.eye_height_m);
     paced_.redraw();
     zone_ = planned_zone(scene_->pack());
@@ -300,21 +304,6 @@ class Loop {
     said_ = Clock::now();
   }
 
-  void pick() {
-    const PageOf page_of = [&](std::uint32_t page) -> const LightmapPage* {
-      const auto found = scene_->page(page);
-      return found ? *found : nullptr;
-    };
-    const auto before = std::exchange(picked_, pick_surface(scene_->pack(), ray_through(view_, pointer_), page_of));
-    const bool rests = before && picked_ && before->page == picked_->page && before->texel == picked_->texel &&
-                       before->part == picked_->part;
-    if (!rests || !picked_->known) return;
-    picked_->why = before->why;
-    if (picked_->why) return;
-    if (!rays_) rays_.emplace(scene_->pack().mesh);
-    picked_->why = why_at(scene_->pack(), *rays_, picked_->at, {.reach_m = 0.5f, .eye = session_.camera.eye}, page_of);
-  }
-
   bool numbers_are_due() const { return seconds_since(numbers_start_) >= 0.5; }
 
   // The panel's numbers, twice a second.
@@ -322,7 +311,7 @@ class Loop {
     meter_.in_zone = zone_.holds(session_.camera.eye);
     meter_.pace = paced_.text();
     if (!session_.frame.timed) return;
-    if (session_.panel && !input_.grabbed()) pick();
+    if (session_.panel && !input_.grabbed()) pointed_.look(*scene_, view_, pointer_, session_.camera.eye);
     numbers_start_ = Clock::now();
   }
 
@@ -349,8 +338,7 @@ class Loop {
   Gui gui_;  // after the input, to whose callbacks it passes on
   Session session_;
   FrameMeter meter_;
-  std::optional<PickedSurface> picked_;
-  std::optional<MeshRays> rays_;  // of the scene, once somebody asks why
+  Pointed pointed_;
   std::optional<BesideView> beside_;
   Floors floors_{scene_->pack().walk_grids, arguments_.eye_height_m};
   Zone zone_ = planned_zone(scene_->pack());
@@ -359,6 +347,7 @@ class Loop {
   const Clock::time_point start_ = Clock::now();
   Clock::time_point numbers_start_ = start_, said_ = start_;
   PacedFrame paced_{device_};
+  FrameLog log_{arguments_.log_frames};
   Pace::Draw drawn_ = Pace::Draw::kKeep;
   std::optional<float> metered_;  // of the last frame that was drawn
 };
@@ -393,7 +382,7 @@ Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const s
   const Status ended = loop.run(stopped, LoadingWatch(started));
   if (arguments.stats.empty()) return ended;
   const std::string text = loop.pace().json();
-  ORIEL_TRY_VOID(write_file_atomically(arguments.stats, std::as_bytes(std::span(text))));
+  ORIEL_TRY_VOID(write_text_atomically(arguments.stats, text));
   return ended;
 }
 

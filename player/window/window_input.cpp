@@ -7,7 +7,7 @@
 namespace oriel {
 namespace {
 
-constexpr double kDoubleClick_s = 0.35;
+constexpr double kDoubleClick_s = 0.35, kDoubleClick_px = 5;
 constexpr float kTurnPixelsPerSecond = 500;  // of arrow keys, as if the mouse had moved
 
 WindowInput* self(GLFWwindow* window) {
@@ -51,27 +51,31 @@ Command command_of(int code, bool shifted) {
 
 }  // namespace
 
+bool InputFrame::clicked() const {
+  return std::ranges::any_of(pointer, [](const PointerStep& step) { return step.clicked; });
+}
+
+void InputFrame::ignore_pointer() {
+  for (PointerStep& step : pointer) step.clicked = false;
+  move.wheel = 0;
+  go_to.reset();
+}
+
 WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
   glfwSetWindowUserPointer(window, this);
   glfwSetKeyCallback(window,
                      [](GLFWwindow* w, int code, int, int action, int mods) { self(w)->key(code, action, mods); });
-  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-    if (action == GLFW_PRESS) self(w)->press(button);
+  glfwSetMouseButtonCallback(window,
+                             [](GLFWwindow* w, int button, int action, int) { self(w)->button(button, action); });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { self(w)->move(x, y); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) {
+    self(w)->wheel_ += y;
+    ++self(w)->inputs_;
   });
-  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-    WindowInput& input = *self(w);
-    if (input.grabbed_ && input.has_last_) {
-      input.moved_x_ += x - input.last_x_;
-      input.moved_y_ += y - input.last_y_;
-    }
-    input.last_x_ = x;
-    input.last_y_ = y;
-    input.has_last_ = input.grabbed_;
-  });
-  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { self(w)->wheel_ += y; });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
     if (!focused) self(w)->grab(false);
   });
+  locate();
 }
 
 void WindowInput::grab(bool on) {
@@ -79,32 +83,74 @@ void WindowInput::grab(bool on) {
   grabbed_ = on;
   has_last_ = false;
   glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+  locate();
 }
 
+void WindowInput::locate() {
+  if (!grabbed_) glfwGetCursorPos(window_, &last_x_, &last_y_);
+}
+
+void WindowInput::move(double x, double y) {
+  has_moved_ = true;
+  if (grabbed_ && has_last_) {
+    moved_x_ += x - last_x_;
+    moved_y_ += y - last_y_;
+  }
+  last_x_ = x;
+  last_y_ = y;
+  has_last_ = grabbed_;
+}
+
+// Of the last event: where the pointer is by now may be elsewhere.
 Vec2 WindowInput::pointer() const {
-  double x = 0, y = 0;
   int width = 0, height = 0;
-  glfwGetCursorPos(window_, &x, &y);
   glfwGetWindowSize(window_, &width, &height);
-  return Vec2(DVec2(x, y) / DVec2(std::max(width, 1), std::max(height, 1)));
+  return Vec2(DVec2(last_x_, last_y_) / DVec2(std::max(width, 1), std::max(height, 1)));
+}
+
+void WindowInput::step(bool clicked, bool turning) {
+  steps_.push_back({pointer(), clicked, left_ && !grabbed_, turning, down(GLFW_KEY_L)});
+}
+
+void WindowInput::count(bool down) {
+  ++inputs_;
+  held_ += down ? 1 : -1;
+}
+
+void WindowInput::button(int button, int action) {
+  count(action == GLFW_PRESS);
+  if (action == GLFW_PRESS) return press(button);
+  if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+  step(false);  // still held up to here
+  left_ = false;
+  step(false);
 }
 
 void WindowInput::press(int button) {
   if (button == GLFW_MOUSE_BUTTON_RIGHT) return grab(true);
   if (button == GLFW_MOUSE_BUTTON_MIDDLE) go_to_ = grabbed_ ? Vec2(0.5f) : pointer();
-  if (button != GLFW_MOUSE_BUTTON_LEFT) return;
-  const double now = glfwGetTime();
-  if (pressed_s_ >= 0 && now - pressed_s_ < kDoubleClick_s) {
-    // The first of the two has grabbed the mouse.
+  if (button == GLFW_MOUSE_BUTTON_LEFT) press_left();
+}
+
+void WindowInput::press_left() {
+  left_ = true;
+  const DVec2 place(last_x_, last_y_);
+  // The time between two presses is at least that from when the first was seen to when the second had not come yet.
+  // Two that are apart are two drags.
+  if (pressed_s_ >= 0 && looked_s_ - pressed_s_ < kDoubleClick_s &&
+      glm::distance(place, pressed_px_) <= kDoubleClick_px) {
+    // The first of the two has grabbed the mouse, or would.
+    for (PointerStep& step : steps_) step.clicked = false;
     go_to_ = pressed_at_;
     if (!grabbed_before_) grab(false);
     pressed_s_ = -1;
     return;
   }
-  pressed_s_ = now;
+  pressed_s_ = glfwGetTime();
+  pressed_px_ = place;
   grabbed_before_ = grabbed_;
   pressed_at_ = grabbed_ ? Vec2(0.5f) : pointer();
-  clicked_ = !grabbed_;
+  step(!grabbed_);
 }
 
 // The first gamepad that there is.
@@ -133,6 +179,8 @@ void WindowInput::add_pad(float dt_s, InputFrame& to) {
 }
 
 void WindowInput::key(int code, int action, int mods) {
+  if (code != GLFW_KEY_UNKNOWN && action != GLFW_REPEAT) count(action == GLFW_PRESS);
+  if (code == GLFW_KEY_R && action != GLFW_REPEAT) step(false, action == GLFW_RELEASE);  // up to here it was not so
   if (action == GLFW_RELEASE) return;
   if (code == GLFW_KEY_ESCAPE && action == GLFW_PRESS) {
     escape_ = !grabbed_ || presenting_;
@@ -148,6 +196,9 @@ void WindowInput::key(int code, int action, int mods) {
 
 InputFrame WindowInput::poll(float dt_s) {
   glfwPollEvents();
+  looked_s_ = glfwGetTime();
+  if (!std::exchange(has_moved_, false))
+    locate();  // it may have left, and GLFW is silent of the place it has put it to
   InputFrame out;
   const bool control = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
   out.move.forward = !control && down(GLFW_KEY_W);
@@ -166,12 +217,11 @@ InputFrame WindowInput::poll(float dt_s) {
   out.move.wheel = static_cast<float>(std::exchange(wheel_, 0.0));
   out.commands = std::exchange(commands_, {});
   add_pad(dt_s, out);
-  out.pointer = pointer();
+  step(false);
+  out.pointer = std::exchange(steps_, {});
+  out.inputs = inputs_;
+  out.held = held_;
   out.go_to = std::exchange(go_to_, std::nullopt);
-  out.clicked = std::exchange(clicked_, false);
-  out.holding = !grabbed_ && glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
-  out.turning = down(GLFW_KEY_R);
-  out.lamps = down(GLFW_KEY_L);
   out.escape = std::exchange(escape_, false);
   out.quit = std::exchange(quit_, false) || glfwWindowShouldClose(window_);
   return out;

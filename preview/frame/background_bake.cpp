@@ -8,7 +8,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <nlohmann/json.hpp>
+
+#include "formats/core/json.h"
 
 namespace oriel {
 
@@ -76,7 +77,7 @@ void BackgroundBake::read_pipe() {
 
 // A line of --json-log; what is none is the last word of a program that fails.
 void BackgroundBake::take_line(const std::string& line) {
-  const auto json = nlohmann::json::parse(line, nullptr, false);
+  const auto json = Json::parse(line).value_or(Json());
   if (!json.is_object()) {
     if (!line.empty()) last_error_ = line;
     return;
@@ -86,8 +87,8 @@ void BackgroundBake::take_line(const std::string& line) {
   if (event != "progress") return;
   stage_ = json.value("stage", "");
   fraction_ = json.value("fraction", 0.0);
-  const auto left = json.find("seconds_left");
-  left_s_ = left != json.end() && left->is_number() ? left->get<double>() : -1;
+  const Json& left = json["seconds_left"];
+  left_s_ = left.is_number() ? left.get<double>() : -1;
 }
 
 }  // namespace oriel

@@ -11,11 +11,11 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kPlaces = 32;    // of an element, that rays go to
-constexpr double kUnseen = 0.1;        // of all importance, that is shared by light as if nothing were between
-constexpr double kAnyway = 0.01;       // by power
-constexpr double kHidden = 0.05;       // of its light unshadowed, that counts of a landing that is not seen
-constexpr std::size_t kTogether = 64;  // landings of a task
+constexpr std::size_t kPlaces = 32;         // of an element, that rays go to
+constexpr double kUnseen = 0.1;             // of all importance, that is shared by light as if nothing were between
+constexpr double kAnyway = 0.01;            // by power
+constexpr double kHidden = 0.05;            // of its light unshadowed, that counts of a landing that is not seen
+constexpr std::size_t kLandingsATask = 64;  // landings of a task
 constexpr float kNear =
     0.03f;  // of the scene's radius: light of what is nearer to the eye's points counts as from there
 
@@ -36,9 +36,9 @@ Result<std::vector<double>> importance_of(std::span<const Landing> landings, std
                                           const Accel& accel, Context& context) {
   std::vector<double> importance(landings.size());
   const float soft = near2(accel.scene());
-  const std::size_t tasks = (landings.size() + kTogether - 1) / kTogether;
+  const std::size_t tasks = (landings.size() + kLandingsATask - 1) / kLandingsATask;
   ORIEL_TRY_VOID(parallel_for(context, "", tasks, [&](std::size_t task) {
-    for (std::size_t i = task * kTogether; i < std::min(landings.size(), (task + 1) * kTogether); ++i) {
+    for (std::size_t i = task * kLandingsATask; i < std::min(landings.size(), (task + 1) * kLandingsATask); ++i) {
       const Landing& l = landings[i];
       const LampPoint lamp = lamp_at({offset_origin(l.place, l.normal, l.magnitude), l.normal, l.power}, soft);
       double sum = 0, seen = 0;

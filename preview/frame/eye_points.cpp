@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint64_t kStream = 0x657965;
+constexpr std::uint64_t kEyeStream = 0x657965;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ std::vector<EyePoint> eye_points(const SeenPoints& seen, const Scene& scene, std
                                  std::uint32_t pass) {
   std::vector<EyePoint> points;
   for (std::uint32_t i = 0; i < count; ++i) {
-    Sampler sampler(seed, kStream, pass * count + i);
+    Sampler sampler(seed, kEyeStream, pass * count + i);
     const Vec2 at = sampler.next2() * Vec2(IVec2(seen.width, seen.height));
     const std::size_t pixel =
         static_cast<std::size_t>(at.y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(at.x);

@@ -11,12 +11,12 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint64_t kStream = 0x696d706f;
+constexpr std::uint64_t kGuideStream = 0x696d706f;
 constexpr float kUnguided = 0.25f;  // share of particles
 constexpr std::size_t kMostGuides = 256;
 constexpr int kBounces = 4;        // that the eye's paths take
 constexpr float kCone_rad = 0.3f;  // of directions to the sky about a guide's
-constexpr std::size_t kTogether = 32, kNearest = 4;
+constexpr std::size_t kPointsATask = 32, kNearest = 4;
 
 float distance_from_line(const Vec3& p, const Ray& line) {
   return glm::length(glm::cross(p - line.origin, line.direction));
@@ -63,7 +63,7 @@ Result<GuidedSources> GuidedSources::create(const Transport& transport, const So
   const auto has = [&](SourceKind kind) { return std::ranges::count(sources.kinds(), kind) > 0; };
   const bool has_sun = has(SourceKind::kDirectional), has_sky = has(SourceKind::kSky);
   if (!has_sun && !has_sky) return out;
-  const std::size_t tasks = (eye.size() + kTogether - 1) / kTogether;
+  const std::size_t tasks = (eye.size() + kPointsATask - 1) / kPointsATask;
   std::vector<std::vector<LightGuide>> sun(tasks), sky(tasks);
   const auto look = [&](std::size_t task, const Vec3& origin, const Vec3& face, Sampler& sampler) {
     if (!has_sun) return;
@@ -72,9 +72,9 @@ Result<GuidedSources> GuidedSources::create(const Transport& transport, const So
       sun[task].push_back({origin, to_sun});
   };
   ORIEL_TRY_VOID(parallel_for(context, "", tasks, [&](std::size_t task) {
-    for (std::size_t i = task * kTogether; i < std::min(eye.size(), (task + 1) * kTogether); ++i) {
+    for (std::size_t i = task * kPointsATask; i < std::min(eye.size(), (task + 1) * kPointsATask); ++i) {
       const EyePoint& p = eye[i];
-      Sampler sampler(context.seed, kStream,
+      Sampler sampler(context.seed, kGuideStream,
                       pass * static_cast<std::uint32_t>(eye.size()) + static_cast<std::uint32_t>(i));
       const Vec3& face = p.at.geometric_normal;
       look(task, p.origin, face, sampler);

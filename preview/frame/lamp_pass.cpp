@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-enum Unit { kPlace, kNormal, kFace, kProfile };
+enum LampUnit { kLampPlace, kLampNormal, kLampFace, kLampProfile };
 
 }  // namespace
 
@@ -69,12 +69,12 @@ void LampPass::draw(const LampPoint& point, const PreviewMesh& mesh, const SeenS
   gpu::RasterState state{.blend = gpu::Blend::kAdd};
   if (stencilled) state.stencil_func = GL_EQUAL;
   gpu::apply(state);
-  surfaces.place.bind(kPlace);
-  surfaces.normal.bind(kNormal);
-  surfaces.face.bind(kFace);
+  surfaces.place.bind(kLampPlace);
+  surfaces.normal.bind(kLampNormal);
+  surfaces.face.bind(kLampFace);
   program_.use();
   for (const auto& [name, unit] : std::array<std::pair<const char*, int>, 4>{
-           {{"u_place", kPlace}, {"u_normal", kNormal}, {"u_face", kFace}, {"u_profile", kProfile}}})
+           {{"u_place", kLampPlace}, {"u_normal", kLampNormal}, {"u_face", kLampFace}, {"u_profile", kLampProfile}}})
     program_.set(name, unit);
   program_.set("u_kind", static_cast<int>(point.kind));
   program_.set("u_light", point.place);
@@ -85,7 +85,7 @@ void LampPass::draw(const LampPoint& point, const PreviewMesh& mesh, const SeenS
   if (point.light != ~0u) {
     const Light& light = mesh.scene().lights[point.light];
     profiled = light.profile >= 0;
-    if (profiled) mesh.profile(point.light).bind(kProfile);
+    if (profiled) mesh.profile(point.light).bind(kLampProfile);
     program_.set("u_right", light.right);
     if (light.type == LightType::kSpot) {
       const float outer = std::cos(light.outer_cone_rad);

@@ -8,9 +8,9 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint64_t kStream = 0x656c656d;
+constexpr std::uint64_t kLandingStream = 0x656c656d;
 constexpr int kMostBounces = 64;
-constexpr std::uint32_t kParticles = 2048, kTogether = 64;  // of a kind of source, and of a task
+constexpr std::uint32_t kParticles = 2048, kParticlesATask = 64;  // of a kind of source, and of a task
 
 }  // namespace
 
@@ -25,8 +25,8 @@ Result<std::vector<Landing>> land_particles(const Transport& t, const GuidedSour
   for (const SourceKind kind : sources.kinds()) {
     const bool aimed = kind == SourceKind::kNear || !sources.guides(kind).empty();
     const std::uint32_t count = std::max(1u, aimed ? kParticles : kParticles / 8);
-    for (std::uint32_t first = 0; first < count; first += kTogether)
-      tasks.push_back({kind, first, std::min(count, first + kTogether), count, {}});
+    for (std::uint32_t first = 0; first < count; first += kParticlesATask)
+      tasks.push_back({kind, first, std::min(count, first + kParticlesATask), count, {}});
   }
   ORIEL_TRY_VOID(parallel_for(context, "", tasks.size(), [&](std::size_t i) {
     Task& task = tasks[i];
@@ -38,7 +38,7 @@ Result<std::vector<Landing>> land_particles(const Transport& t, const GuidedSour
         task.landed.push_back({s.position, s.geometric_normal, shines, s.magnitude});
     };
     for (std::uint32_t k = task.first; k < task.last; ++k) {
-      Sampler sampler(context.seed, kStream + static_cast<std::uint64_t>(task.kind), pass * task.count + k);
+      Sampler sampler(context.seed, kLandingStream + static_cast<std::uint64_t>(task.kind), pass * task.count + k);
       const Particle particle = sources.emit(task.kind, sampler);
       ParticleWalk(t, particle.ray, particle.power, sampler).run(kMostBounces, land, [](const Ray&) {});
     }

@@ -9,7 +9,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint64_t kStream = 0x72656673;
+constexpr std::uint64_t kReflectionStream = 0x72656673;
 constexpr std::uint32_t kEyePoints = 512;               // from which light is followed backwards
 constexpr std::size_t kImportant = 16, kShadowed = 32;  // of those, that tell which landings and which elements matter
 
@@ -35,7 +35,7 @@ Result<std::vector<LampPoint>> reflecting_points(const PreviewScene& scene, cons
   ORIEL_TRY(std::vector<BounceElement> found,
             bounce_elements(landings, first(kImportant), options.elements, *scene.accel, context));
   ORIEL_TRY_VOID(find_importance(found, first(kShadowed), *scene.accel, context));
-  Sampler sampler(context.seed, kStream, pass);
+  Sampler sampler(context.seed, kReflectionStream, pass);
   for (const BounceElement& e : some_of(found, options.points, sampler.next1())) {
     const auto chosen = static_cast<std::size_t>(sampler.next1() * static_cast<float>(e.places.size()));
     const BounceElement::Place& at = e.places[std::min(chosen, e.places.size() - 1)];

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
-#include <nlohmann/json.hpp>
 
 #include "bake/import/container.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json numbers(const Vec3& v) {
   return {v.x, v.y, v.z};
@@ -24,8 +22,8 @@ void use_extension(Json& file, const char* name) {
 void write_material(Json& file, std::uint32_t index, const MaterialEdit& edit) {
   Json& material = file["materials"][index];
   Json& surface = material["pbrMetallicRoughness"];
-  const auto color = surface.find("baseColorFactor");
-  const double alpha = color != surface.end() && color->size() == 4 ? (*color)[3].get<double>() : 1.0;
+  const Json* color = surface.find("baseColorFactor");
+  const double alpha = color && color->size() == 4 ? (*color)[3].get<double>() : 1.0;
   surface["baseColorFactor"] = {edit.base_color.x, edit.base_color.y, edit.base_color.z, alpha};
   surface["roughnessFactor"] = edit.roughness;
   // A factor of at most 1, and its strength.
@@ -41,8 +39,9 @@ void write_material(Json& file, std::uint32_t index, const MaterialEdit& edit) {
 
 DMat3 linear_of(const Json& node) {
   DMat3 out(1);
-  if (const auto matrix = node.find("matrix"); matrix != node.end()) {
-    for (int k = 0; k < 9; ++k) out[k / 3][k % 3] = matrix->at(static_cast<std::size_t>(4 * (k / 3) + k % 3));
+  if (const Json* matrix = node.find("matrix")) {
+    for (int k = 0; k < 9; ++k)
+      out[k / 3][k % 3] = matrix->at(static_cast<std::size_t>(4 * (k / 3) + k % 3)).get<double>();
     return out;
   }
   const auto q = node.value("rotation", std::vector<double>{0, 0, 0, 1});
@@ -88,9 +87,9 @@ bool write_light(Json& file, const std::string& name, const LightEdit& edit) {
   Json& nodes = file["nodes"];
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const Json& node = nodes[n];
-    const Json::json_pointer place("/extensions/KHR_lights_punctual/light");
-    if (!node.is_object() || !node.contains(place)) continue;
-    const auto index = node.at(place).get<std::size_t>();
+    const Json* place = node["extensions"]["KHR_lights_punctual"].find("light");
+    if (!place) continue;
+    const auto index = place->get<std::size_t>();
     Json& light = file["extensions"]["KHR_lights_punctual"]["lights"][index];
     std::string own = node.value("name", "");
     if (own.empty()) own = light.value("name", fmt::format("light {}", index));
@@ -173,7 +172,7 @@ void follow_places(const SceneEdits& originals, const Vec3& shift, SceneEdits& e
 
 Result<Bytes> edited_file(std::span<const std::byte> file, const std::string& name, const SceneEdits& edits) {
   ORIEL_TRY(const gltf::Container parts, gltf::split_container(file, name));
-  Json json = Json::parse(parts.json.begin(), parts.json.end(), nullptr, false);
+  Json json = Json::parse(parts.json).value_or(Json());
   if (!json.is_object()) return invalid(name, "found no JSON object, expected a glTF file");
   try {
     for (const auto& [index, edit] : edits.materials) {

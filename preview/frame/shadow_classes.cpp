@@ -8,7 +8,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kMostLamps = 64;  // that are remembered: of more of them each gets few points
-constexpr std::uint64_t kStream = 0x636c617373;
+constexpr std::uint64_t kClassStream = 0x636c617373;
 constexpr std::uint32_t kFewestPoints = 8;  // of a lamp, before a block is believed
 
 }  // namespace
@@ -23,7 +23,7 @@ void ShadowClasses::begin(std::span<const LampPoint> points, std::uint64_t seed,
     lamp.asked += std::exchange(lamp.now, 0u);
   }
   of_points_.clear(), turns_.clear();
-  Sampler sampler(seed, kStream, pass);
+  Sampler sampler(seed, kClassStream, pass);
   for (const LampPoint& point : points) {
     const bool known = lamps_.contains(point.lamp) || lamps_.size() < kMostLamps;
     Lamp* lamp = known && point.lamp != ~0u ? &lamps_[point.lamp] : nullptr;

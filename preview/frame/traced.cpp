@@ -9,9 +9,9 @@
 namespace oriel {
 namespace {
 
-constexpr int kMostBounces = 6;  // of lobes after each other
-constexpr int kLampPoints = 4;   // of lamps, and of what reflects, that light what rays meet
-constexpr float kSame = 0.02f;   // of the distance: a point that the frame shows is the one that the ray meets
+constexpr int kMostLobes = 6;   // of lobes after each other
+constexpr int kLampPoints = 4;  // of lamps, and of what reflects, that light what rays meet
+constexpr float kSame = 0.02f;  // of the distance: a point that the frame shows is the one that the ray meets
 
 // The weights of the second and third corner at a point of a triangle.
 Vec2 barycentric_of(const Scene& scene, std::uint32_t triangle, const Vec3& p) {
@@ -28,7 +28,7 @@ Vec2 barycentric_of(const Scene& scene, std::uint32_t triangle, const Vec3& p) {
 class SpecularTracer {
  public:
   SpecularTracer(const PreviewScene& scene, const TracedFrame& frame)
-      : scene_(scene), frame_(frame), transport_{*scene.accel, *scene.lights, {.max_bounces = kMostBounces}} {}
+      : scene_(scene), frame_(frame), transport_{*scene.accel, *scene.lights, {.max_bounces = kMostLobes}} {}
 
   Vec3 pixel(std::size_t i, Sampler& sampler) const {
     const Scene& scene = scene_.scene();

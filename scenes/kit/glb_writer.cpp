@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
+
+#include "formats/core/json.h"
 
 namespace oriel::sample {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125;
 constexpr int kVertices = 34962, kIndices = 34963, kNoTarget = 0;

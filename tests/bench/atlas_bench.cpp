@@ -3,13 +3,13 @@
 
 #include <bit>
 #include <chrono>
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "bake/atlas/atlas.h"
 #include "bake/atlas/polygon.h"
 #include "bake/atlas/texel_map.h"
 #include "bake/import/import.h"
+#include "formats/cli/command.h"
 #include "formats/image/png.h"
 #include "tests/bake/atlas/shapes.h"
 
@@ -146,16 +146,18 @@ int run(const Arguments& args) {
 }  // namespace oriel
 
 int main(int argc, char** argv) {
-  oriel::Arguments args;
-  CLI::App app("Quality, time and memory of automatic atlases.", "atlas_bench");
-  app.add_option("SCENE", args.scenes, "glTF files; icosphere (81 920 triangles) or dunes:N (one mesh of N)")
-      ->required();
-  app.add_option("--resolution", args.atlas.resolution, "Side of the one page");
-  app.add_option("--texel", args.atlas.texel_m, "Metres a texel");
-  app.add_option("--time-limit", args.atlas.time_limit_s, "Seconds");
-  app.add_option("--padding", args.atlas.padding, "Texels");
-  app.add_option("--threads", args.threads, "0: all");
-  app.add_option("--pictures", args.pictures, "Folder for a picture of each page");
-  CLI11_PARSE(app, argc, argv);
-  return oriel::run(args);
+  using namespace oriel;
+  Arguments args;
+  if (const auto code =
+          parse_options(argc, argv, "Quality, time and memory of automatic atlases.",
+                        {{"SCENE", "Arguments", "glTF files; icosphere (81 920 triangles) or dunes:N (one mesh of N)",
+                          texts(args.scenes, "SCENE"), Use::kRequired},
+                         {"--resolution", "Options", "Side of the one page", number(args.atlas.resolution, 0, 1e6)},
+                         {"--texel", "Options", "Metres a texel", number(args.atlas.texel_m, 0, 1e6)},
+                         {"--time-limit", "Options", "Seconds", number(args.atlas.time_limit_s, 0, 1e9)},
+                         {"--padding", "Options", "Texels", number(args.atlas.padding, 0, 1e6)},
+                         {"--threads", "Options", "0: all", number(args.threads, 0, 1024)},
+                         {"--pictures", "Options", "Folder for a picture of each page", text(args.pictures, "DIR")}}))
+    return *code;
+  return run(args);
 }

@@ -1,9 +1,9 @@
 // Errors asked for, stated and met in small rooms.
 // Usage: calibration_bench [--error E | --rays N] [--bakes N] [--texel M] [--truth-samples N] [--no-filter]
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <sstream>
 
+#include "formats/cli/command.h"
 #include "tests/bake/radiosity/calibration.h"
 #include "tests/bake/radiosity/rooms.h"
 
@@ -15,14 +15,15 @@ int run(int argc, char** argv) {
   RadiosityOptions& o = settings.cached;
   std::uint32_t rays = 0;
   bool no_filter = false;
-  CLI::App app("Coverage of stated errors, and errors asked for against errors met.");
-  app.add_option("--error", o.error, "relative error asked for")->check(CLI::PositiveNumber);
-  app.add_option("--rays", rays, "gather rays a texel, in place of an error");
-  app.add_option("--bakes", settings.bakes, "seeds")->check(CLI::PositiveNumber);
-  app.add_option("--texel", settings.texel_m, "metres")->check(CLI::PositiveNumber);
-  app.add_option("--truth-samples", settings.truth_samples, "paths a pixel")->check(CLI::PositiveNumber);
-  app.add_flag("--no-filter", no_filter, "gathered light as it is");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto code =
+          parse_options(argc, argv, "Coverage of stated errors, and errors asked for against errors met.",
+                        {{"--error", "Options", "Relative error asked for", number(o.error, 1e-9, 1e9)},
+                         {"--rays", "Options", "Gather rays a texel, in place of an error", number(rays, 0, 1e9)},
+                         {"--bakes", "Options", "Seeds", number(settings.bakes, 1, 1e9)},
+                         {"--texel", "Options", "Metres", number(settings.texel_m, 1e-9, 1e9)},
+                         {"--truth-samples", "Options", "Paths a pixel", number(settings.truth_samples, 1, 1e9)},
+                         {"--no-filter", "Options", "Gathered light as it is", flag(no_filter)}}))
+    return *code;
   if (rays > 0) o.samples = rays, o.error = 0;
   if (no_filter) o.filter.strength = 0;
   std::printf("| room | covered by 1.96 errors | error | stated | bias | of the truth |\n|---|---|---|---|---|---|\n");

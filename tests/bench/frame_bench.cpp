@@ -1,10 +1,10 @@
 // The error that people see in a pack's light, whoever baked it: held-out pixels against unbiased paths.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "bake/radiosity/certificate.h"
 #include "bake/run/pipeline.h"
 #include "bake/run/prepare.h"
+#include "formats/cli/command.h"
 #include "formats/pack/reader.h"
 
 namespace oriel {
@@ -37,16 +37,17 @@ Result<Certificate> measure(const BakeOptions& options, double known_to, std::ui
 }
 
 int bench(int argc, char** argv) {
-  CLI::App app("Prints the frame error of a pack's lightmap (docs/radiosity.md) with its 95 % interval.");
   BakeOptions options;
   std::string texel = "auto";
   double known_to = 0.02, rays = 2e8;
-  app.add_option("scene", options.scene)->required();
-  app.add_option("pack", options.output, "baked of that scene")->required();
-  app.add_option("--texel", texel, "that it was baked with")->capture_default_str();
-  app.add_option("--known-to", known_to, "error whose square is to be known to a fifth")->capture_default_str();
-  app.add_option("--rays", rays, "at most")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  if (const auto code = parse_options(
+          argc, argv, "Prints the frame error of a pack's lightmap (docs/radiosity.md) with its 95 % interval.",
+          {{"SCENE", "Arguments", "That was baked", path(options.scene, "SCENE"), Use::kRequired},
+           {"PACK", "Arguments", "Baked of that scene", path(options.output, "PACK"), Use::kRequired},
+           {"--texel", "Options", "That it was baked with", text(texel, "auto|LENGTH")},
+           {"--known-to", "Options", "Error whose square is to be known to a fifth", number(known_to, 1e-9, 1e9)},
+           {"--rays", "Options", "At most", number(rays, 1, 1e18)}}))
+    return *code;
   const auto texel_m = texel == "auto" ? Result<float>(0.0f) : parse_length(texel);
   if (!texel_m) return std::fprintf(stderr, "%s\n", texel_m.error().text().c_str()), 1;
   options.choose_texel = *texel_m == 0;

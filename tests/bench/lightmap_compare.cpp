@@ -2,12 +2,12 @@
 // (docs/benchmarks.md defines them). Prints one JSON object a lightmap and set of texels.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
 
 #include "bake/atlas/texel_map.h"
 #include "bake/import/import.h"
+#include "formats/cli/command.h"
 #include "formats/image/exr.h"
 
 namespace oriel {
@@ -209,18 +209,27 @@ Status compare(const Options& o) {
 }  // namespace oriel
 
 int main(int argc, char** argv) {
-  oriel::Options o;
-  CLI::App app("Errors of lightmaps against a reference in two independent halves.", "lightmap_compare");
-  app.add_option("SCENE", o.scene)->required();
-  app.add_option("REFERENCE_A", o.reference_a)->required();
-  app.add_option("REFERENCE_B", o.reference_b)->required();
-  app.add_option("--resolution", o.resolution, "Side of the page in texels")->capture_default_str();
-  app.add_option("--hidden", o.hidden, "Two bakes, with and without --hidden-black")->expected(2);
-  app.add_option("--lightmap", o.lightmaps, "EXR files to be judged")->required();
-  app.add_option("--scale", o.scales, "A factor for each of them");
-  app.add_option("--without", o.without, "Open texels once more, without objects whose names (less digits) hold this");
-  CLI11_PARSE(app, argc, argv);
-  if (const oriel::Status done = oriel::compare(o); !done) {
+  using namespace oriel;
+  Options o;
+  const auto factor = [](const std::string& typed) -> Result<double> {
+    double scale = 1;
+    ORIEL_TRY_VOID(number(scale, -1e30, 1e30).set(typed));
+    return scale;
+  };
+  const auto digits = [](const double& scale) { return fmt::format("{}", scale); };
+  if (const auto code = parse_options(
+          argc, argv, "Errors of lightmaps against a reference in two independent halves.",
+          {{"SCENE", "Arguments", "With lightmap coordinates", text(o.scene, "SCENE"), Use::kRequired},
+           {"REFERENCE_A", "Arguments", "EXR file", text(o.reference_a, "FILE"), Use::kRequired},
+           {"REFERENCE_B", "Arguments", "EXR file", text(o.reference_b, "FILE"), Use::kRequired},
+           {"--resolution", "Options", "Side of the page in texels", number(o.resolution, 1, 65536)},
+           {"--hidden", "Options", "Given twice: bakes with and without --hidden-black", texts(o.hidden, "FILE")},
+           {"--lightmap", "Options", "EXR files to be judged; repeatable", texts(o.lightmaps, "FILE"), Use::kRequired},
+           {"--scale", "Options", "A factor for each of them", each(o.scales, "X", factor, digits)},
+           {"--without", "Options", "Open texels once more, without objects whose names (less digits) hold this",
+            text(o.without, "TEXT")}}))
+    return *code;
+  if (const Status done = compare(o); !done) {
     std::fprintf(stderr, "lightmap_compare: %s\n", done.error().text().c_str());
     return static_cast<int>(done.error().code);
   }

@@ -2,7 +2,6 @@
 // Usage: views_bench SCENE.glb … [--maps N] [--hemisphere N] [--eyes N] [--samples N]
 #include <algorithm>
 #include <chrono>
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "bake/import/import.h"
@@ -10,6 +9,7 @@
 #include "bake/radiance/planned_views.h"
 #include "bake/radiance/residual.h"
 #include "bake/visibility/eye_region.h"
+#include "formats/cli/command.h"
 
 namespace oriel {
 namespace {
@@ -97,14 +97,15 @@ Status run_scene(const std::string& path, const Settings& settings) {
 int run(int argc, char** argv) {
   Settings settings;
   settings.plan.memory_bytes = std::uint64_t{1} << 40;
-  CLI::App app("What planned radiance maps show, beside uniform hemispheres.");
-  app.add_option("SCENE", settings.scenes, ".glb or .gltf files")->required();
-  app.add_option("--maps", settings.plan.choice.max_maps, "planned for an element");
-  app.add_option("--hemisphere", settings.hemisphere, "uniform maps of an element");
-  app.add_option("--eyes", settings.eyes, "held out from planning");
-  app.add_option("--samples", settings.samples, "reflected rays to judge by");
-  app.add_option("--elements", settings.plan.max_elements, "of a reflector at most");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto code = parse_options(
+          argc, argv, "What planned radiance maps show, beside uniform hemispheres.",
+          {{"SCENE", "Arguments", ".glb or .gltf files", texts(settings.scenes, "SCENE"), Use::kRequired},
+           {"--maps", "Options", "Planned for an element", number(settings.plan.choice.max_maps, 0, 4096)},
+           {"--hemisphere", "Options", "Uniform maps of an element", number(settings.hemisphere, 0, 4096)},
+           {"--eyes", "Options", "Held out from planning", number(settings.eyes, 0, 1e9)},
+           {"--samples", "Options", "Reflected rays to judge by", number(settings.samples, 0, 1e9)},
+           {"--elements", "Options", "Of a reflector at most", number(settings.plan.max_elements, 1, 1e6)}}))
+    return *code;
   for (const std::string& scene : settings.scenes)
     if (const Status status = run_scene(scene, settings); !status) {
       std::fprintf(stderr, "views_bench: %s\n", status.error().text().c_str());

@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/image/png.h"
 #include "tests/frames/frames.h"
 
@@ -22,11 +21,11 @@ TEST(CompareFrames, CornellAgreesWithItsReference) {
   const std::string compare = "oriel-play a.oriel --offscreen --compare a.exr ";
   ASSERT_EQ(run(compare + "--size 640x360 --json a.json -o a.png"), 0);
   const Bytes bytes = *read_file(folder / "a.json");
-  const auto json = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, true, false);
-  const double flip = json["regions"]["frame"]["flip"];
-  EXPECT_LT(json["regions"]["frame"]["D"]["net"], 0.05);
+  const auto json = Json::parse(bytes).value();
+  const double flip = json["regions"]["frame"]["flip"].get<double>();
+  EXPECT_LT(json["regions"]["frame"]["D"]["net"].get<double>(), 0.05);
   EXPECT_LT(flip, 0.05);
-  EXPECT_GT(json["regions"]["frame"]["ssim"], 0.8);
+  EXPECT_GT(json["regions"]["frame"]["ssim"].get<double>(), 0.8);
   EXPECT_EQ(read_png(folder / "a.png")->width, 3u * 160);
 
   EXPECT_EQ(run(compare + "--max-flip 0.5"), 0);
@@ -40,7 +39,7 @@ TEST(CompareFrames, CornellAgreesWithItsReference) {
   EXPECT_EQ(run("oriel-play a.oriel --offscreen --compare missing.exr"), 2);
   ASSERT_EQ(run("oriel-play a.oriel --offscreen --camera 0 --size 64x64 -o plain.exr"), 0);
   EXPECT_EQ(run("oriel-play a.oriel --offscreen --compare plain.exr --max-flip 0"), 0) << "an earlier frame";
-  if (!testing::Test::HasFailure()) fs::remove_all(folder);
+  if (!::testing::Test::HasFailure()) fs::remove_all(folder);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Reference {
   std::vector<std::uint8_t> gloss;   // or rougher metal
 };
 
-class Frames : public testing::Test {
+class Frames : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("oriel-frames-" + std::to_string(::getpid()));

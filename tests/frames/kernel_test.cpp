@@ -16,8 +16,8 @@ namespace oriel {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 160, kHeight = 90;
-constexpr int kSupersampling = 2;
+constexpr int kKernelWidth = 160, kKernelHeight = 90;
+constexpr int kKernelSupersampling = 2;
 
 // A polished floor of a dielectric, seen flat, under a lamp between it and a wall: its highlight lies to the eye's side
 // of the mirror direction all along the floor.
@@ -98,20 +98,20 @@ Errors measure(const sample::SampleScene& sample) {
   const Accel accel = *Accel::build(scene);
   const LightSet lights(scene);
   const ReferenceFrame reference =
-      *render_reference({accel, lights, {}}, scene.cameras[0], {kWidth, kHeight, 256}, context);
+      *render_reference({accel, lights, {}}, scene.cameras[0], {kKernelWidth, kKernelHeight, 256}, context);
   forget_factors(folder / "floor.oriel", folder / "alike.oriel");
   const auto played = [&](const std::string& pack, const std::string& kernel) {
-    EXPECT_EQ(
-        test::run(folder, "oriel-play " + pack + " --offscreen --size " + std::to_string(kSupersampling * kWidth) +
-                              "x" + std::to_string(kSupersampling * kHeight) + " --camera 0 --show MKR --kernel " +
-                              kernel + " -o " + kernel + ".exr"),
-        0);
+    EXPECT_EQ(test::run(folder, "oriel-play " + pack + " --offscreen --size " +
+                                    std::to_string(kKernelSupersampling * kKernelWidth) + "x" +
+                                    std::to_string(kKernelSupersampling * kKernelHeight) +
+                                    " --camera 0 --show MKR --kernel " + kernel + " -o " + kernel + ".exr"),
+              0);
     const auto image = read_exr(folder / (kernel + ".exr"));
     EXPECT_TRUE(image) << (image ? "" : image.error().text());
-    return *relative_error(shrink(*image, kSupersampling), reference.specular);
+    return *relative_error(shrink(*image, kKernelSupersampling), reference.specular);
   };
   const Errors errors{played("floor.oriel", "lobe"), played("floor.oriel", "centred"), played("alike.oriel", "lobe")};
-  if (!testing::Test::HasFailure()) fs::remove_all(folder);
+  if (!::testing::Test::HasFailure()) fs::remove_all(folder);
   return errors;
 }
 

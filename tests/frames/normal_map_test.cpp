@@ -13,8 +13,9 @@ namespace oriel {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 160, kHeight = 90;
-constexpr int kSupersampling = 4;  // player frames are rendered larger and averaged, as the reference's pixels are
+constexpr int kReliefWidth = 160, kReliefHeight = 90;
+constexpr int kReliefSupersampling =
+    4;  // player frames are rendered larger and averaged, as the reference's pixels are
 
 // A room's wall with round bumps whose sides are up to 35 degrees steep; a tall lamp stands on its left.
 Scene bumpy_wall() {
@@ -38,7 +39,7 @@ Camera facing_wall() {
   return camera;
 }
 
-class NormalMappedFrames : public testing::Test {
+class NormalMappedFrames : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("oriel-normals-" + std::to_string(::getpid()));
@@ -65,14 +66,14 @@ class NormalMappedFrames : public testing::Test {
     pack.cameras = {facing_wall()};
     const auto written = write_pack(folder_ / (name + ".oriel"), pack);
     EXPECT_TRUE(written) << written.error().text();
-    EXPECT_EQ(
-        test::run(folder_, "oriel-play " + name + ".oriel --offscreen --size " +
-                               std::to_string(kSupersampling * kWidth) + "x" +
-                               std::to_string(kSupersampling * kHeight) + " --camera 0 --show D -o " + name + ".exr"),
-        0);
+    EXPECT_EQ(test::run(folder_, "oriel-play " + name + ".oriel --offscreen --size " +
+                                     std::to_string(kReliefSupersampling * kReliefWidth) + "x" +
+                                     std::to_string(kReliefSupersampling * kReliefHeight) + " --camera 0 --show D -o " +
+                                     name + ".exr"),
+              0);
     const auto image = read_exr(folder_ / (name + ".exr"));
     EXPECT_TRUE(image) << (image ? "" : image.error().text());
-    return image ? shrink(*image, kSupersampling) : FloatImage{};
+    return image ? shrink(*image, kReliefSupersampling) : FloatImage{};
   }
 
   fs::path folder_;
@@ -84,7 +85,7 @@ TEST_F(NormalMappedFrames, BumpyWallAgreesWithTheReference) {
   const LightSet lights(scene);
   Context context;
   const ReferenceFrame reference =
-      *render_reference({accel, lights, {}}, facing_wall(), {kWidth, kHeight, 256}, context);
+      *render_reference({accel, lights, {}}, facing_wall(), {kReliefWidth, kReliefHeight, 256}, context);
   const FloatImage directional = bake_and_play(scene, true, "directional"),
                    plain = bake_and_play(scene, false, "plain");
   const RelativeError with = *relative_error(directional, test::diffuse(reference), reference.diffuse_noise);

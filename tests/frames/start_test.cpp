@@ -15,7 +15,7 @@ namespace oriel {
 namespace {
 namespace fs = std::filesystem;
 
-class Start : public testing::Test {
+class Start : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("oriel-start-" + std::to_string(::getpid()));

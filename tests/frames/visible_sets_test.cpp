@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/writer.h"
 #include "tests/frames/frames.h"
@@ -26,11 +25,9 @@ class House : public ::testing::Test {
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
-  static nlohmann::json stats(const std::string& name) {
+  static Json stats(const std::string& name) {
     const auto file = read_file(folder_ / name);
-    return file ? nlohmann::json::parse(reinterpret_cast<const char*>(file->data()),
-                                        reinterpret_cast<const char*>(file->data() + file->size()))
-                : nlohmann::json();
+    return file ? Json::parse(*file).value() : Json();
   }
 
   static inline fs::path folder_;

@@ -56,7 +56,8 @@ test::Gltf quad() {
       "KHR_materials_specular":{"specularFactor":0.5},"KHR_materials_transmission":{"transmissionFactor":0.5},
       "KHR_materials_volume":{"thicknessFactor":0.1,"attenuationDistance":2,"attenuationColor":[1,0.5,0]},
       "KHR_materials_clearcoat":{"clearcoatFactor":1},"KHR_materials_anisotropy":{"anisotropyStrength":0.5},
-      "KHR_materials_sheen":{"sheenColorFactor":[0.1,0.1,0.1]}}})");
+      "KHR_materials_sheen":{"sheenColorFactor":[0.1,0.1,0.1]}}})")
+                     .value();
   return g;
 }
 
@@ -71,11 +72,15 @@ test::Gltf room() {
   g.doc["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
   g.doc["textures"] = {{{"source", 0}, {"sampler", 0}}};
   g.use("KHR_lights_punctual");
-  g.doc["extensions"]["KHR_lights_punctual"]["lights"] = test::json::parse(
-      R"([{"type":"point","intensity":100},{"type":"spot","intensity":50,"spot":{"innerConeAngle":0.2,"outerConeAngle":0.5}},
-          {"type":"directional","color":[1,0.9,0.8]}])");
-  g.doc["cameras"] = test::json::parse(
-      R"([{"type":"perspective","perspective":{"yfov":0.8,"znear":0.1}},{"type":"orthographic","orthographic":{"xmag":2,"ymag":1,"znear":0,"zfar":9}}])");
+  g.doc["extensions"]["KHR_lights_punctual"]["lights"] =
+      test::json::parse(
+          R"([{"type":"point","intensity":100},{"type":"spot","intensity":50,"spot":{"innerConeAngle":0.2,"outerConeAngle":0.5}},
+          {"type":"directional","color":[1,0.9,0.8]}])")
+          .value();
+  g.doc["cameras"] =
+      test::json::parse(
+          R"([{"type":"perspective","perspective":{"yfov":0.8,"znear":0.1}},{"type":"orthographic","orthographic":{"xmag":2,"ymag":1,"znear":0,"zfar":9}}])")
+          .value();
   const auto add_node = [&](test::json node) {
     g.doc["nodes"].push_back(std::move(node));
     g.doc["scenes"][0]["nodes"].push_back(g.doc["nodes"].size() - 1);

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-namespace {
-namespace fs = std::filesystem;
+#include "tests/layers/root.h"
 
-const fs::path kRoot = ORIEL_SOURCE_DIR;
+namespace {
+
 constexpr std::size_t kWidest = 140;  // characters of a line of prose
 constexpr int kLongest = 40;          // words of a sentence
 constexpr double kMean = 20;          // words of a page's sentences

@@ -7,10 +7,9 @@
 #include <set>
 #include <string>
 
-namespace {
-namespace fs = std::filesystem;
+#include "tests/layers/root.h"
 
-const fs::path kRoot = ORIEL_SOURCE_DIR;
+namespace {
 
 // Names that a shader declares.
 std::set<std::string> declared_in(const std::string& shader) {

@@ -9,13 +9,13 @@ namespace oriel {
 namespace {
 using namespace testing;
 
-const Vec3 kGrey(10, 10, 10);
+const Vec3 kElementGrey(10, 10, 10);
 
 Seen grey_wall(const Vec2&, const Vec3&) {
-  return {kGrey, 3};
+  return {kElementGrey, 3};
 }
 
-Pack mirror_pack(const std::vector<Vec3>& eyes, std::uint32_t size) {
+Pack pack_of_elements(const std::vector<Vec3>& eyes, std::uint32_t size) {
   Pack pack;
   pack.materials.resize(1);
   pack.materials[0].metallic = 1;
@@ -26,7 +26,7 @@ Pack mirror_pack(const std::vector<Vec3>& eyes, std::uint32_t size) {
   return pack;
 }
 
-Camera camera_at(const Vec3& eye) {
+Camera camera_facing(const Vec3& eye) {
   return look_at(eye, Vec3(0), 1.2f);
 }
 
@@ -42,23 +42,23 @@ class Elements : public FrameTest {
 
 // Two elements side by side; the first has a residual map, which lies after the maps of the second.
 TEST_F(Elements, AResidualMapWipesNothing) {
-  Pack pack = mirror_pack({{0, 0, -1}, {0, 0, -1}, {0, 0, -1}}, 32);
+  Pack pack = pack_of_elements({{0, 0, -1}, {0, 0, -1}, {0, 0, -1}}, 32);
   pack.reflectors[0].elements_x = 2;
   pack.radiance_maps[0].upper.x = pack.radiance_maps[1].lower.x = pack.radiance_maps[2].upper.x = 0;
   pack.radiance_maps[1].element = 1;
   pack.radiance_maps[2].residual = true;
   pack.radiance_maps[2].valid.assign(32 * 32, 0);
-  const Picture p = draw_m(pack, camera_at({0, 0, 1}));
+  const Picture p = draw_m(pack, camera_facing({0, 0, 1}));
   EXPECT_GT(p.stats.reflected_pixels, 1000u);
   EXPECT_EQ(p.stats.holes, 0u);
   pack.radiance_maps[0].valid.assign(32 * 32, 0);
-  EXPECT_GT(draw_m(pack, camera_at({0, 0, 1})).stats.holes, 500u) << "the counter sees an element without light";
+  EXPECT_GT(draw_m(pack, camera_facing({0, 0, 1})).stats.holes, 500u) << "the counter sees an element without light";
 }
 
 TEST_F(Elements, EveryMapThatIsPlannedIsAsked) {
-  Pack pack = mirror_pack(std::vector<Vec3>(kMostMapsPerElement, Vec3(0, 0, -1)), 16);
+  Pack pack = pack_of_elements(std::vector<Vec3>(kMostMapsPerElement, Vec3(0, 0, -1)), 16);
   for (std::size_t i = 0; i + 1 < kMostMapsPerElement; ++i) pack.radiance_maps[i].valid.assign(16 * 16, 0);
-  const Picture p = draw_m(pack, camera_at({0, 0, 1}));
+  const Picture p = draw_m(pack, camera_facing({0, 0, 1}));
   EXPECT_GT(p.stats.reflected_pixels, 1000u);
   EXPECT_EQ(p.stats.holes, 0u) << "the last one sees everything";
 }
@@ -66,16 +66,16 @@ TEST_F(Elements, EveryMapThatIsPlannedIsAsked) {
 // A small map beside a large one in an array, seen up to its borders, at coarse levels too.
 TEST_F(Elements, SmallMapsKeepTheirLightWhenMinified) {
   for (const std::uint32_t size : {1u, 5u, 20u, 37u}) {
-    Pack pack = mirror_pack({{0, 0, -20}, {0, 0, -20}}, 128);
+    Pack pack = pack_of_elements({{0, 0, -20}, {0, 0, -20}}, 128);
     pack.radiance_maps[0].valid.assign(128 * 128, 0);
-    pack.radiance_maps[1] = mirror_pack({{0, 0, -20}}, size).radiance_maps[0];
+    pack.radiance_maps[1] = pack_of_elements({{0, 0, -20}}, size).radiance_maps[0];
     for (const float distance : {1.0f, 2.0f, 4.0f}) {
-      const Picture p = draw_m(pack, camera_at({0, 0, distance}), 16, 16);
+      const Picture p = draw_m(pack, camera_facing({0, 0, distance}), 16, 16);
       const float half = 8 / (distance * std::tan(0.6f));  // the mirror's, in pixels
       for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
           if (std::max(std::abs(x - 7.5f), std::abs(y - 7.5f)) > half - 1) continue;
-          EXPECT_NEAR(p.at(x, y).x, kGrey.x, 0.02f) << size << " from " << distance << " at " << x << "," << y;
+          EXPECT_NEAR(p.at(x, y).x, kElementGrey.x, 0.02f) << size << " from " << distance << " at " << x << "," << y;
         }
     }
   }
@@ -83,14 +83,14 @@ TEST_F(Elements, SmallMapsKeepTheirLightWhenMinified) {
 
 // A sky of black and white pixels is grey where a pixel of the frame covers many of them.
 TEST_F(Elements, TheSkyIsMinified) {
-  Pack pack = mirror_pack({{0, 0, -1}}, 256);
+  Pack pack = pack_of_elements({{0, 0, -1}}, 256);
   RadianceMap& map = pack.radiance_maps[0];
   for (std::uint32_t i = 0; i < 256 * 256; ++i) {
     map.radiance[i] = Vec3((i % 256 / 2 + i / 512) % 2 == 0 ? 20.0f : 0.0f);
     map.disparity[i] = 0;
     map.valid[i] = 2;
   }
-  const Picture p = draw_m(pack, camera_at({0.03f, 0.02f, 1}), 32, 24);
+  const Picture p = draw_m(pack, camera_facing({0.03f, 0.02f, 1}), 32, 24);
   for (int y = 8; y < 16; ++y)
     for (int x = 12; x < 20; ++x) EXPECT_NEAR(p.at(x, y).x, 10, 0.5f) << x << "," << y;
 }
@@ -100,7 +100,7 @@ TEST(LightLevels, HaveLightBesideWhatIsSeen) {
   constexpr int kSize = 64;
   RadianceMap map;
   map.width = map.height = kSize;
-  map.radiance.assign(kSize * kSize, kGrey);
+  map.radiance.assign(kSize * kSize, kElementGrey);
   map.disparity.assign(kSize * kSize, 0.5f);
   map.valid.assign(kSize * kSize, 0);
   const auto is_seen = [](int x, int y) {
@@ -118,7 +118,7 @@ TEST(LightLevels, HaveLightBesideWhatIsSeen) {
           for (int u = std::max((x >> level) - 1, 0); u <= std::min((x >> level) + 1, size - 1); ++u) {
             const auto at = static_cast<std::size_t>(v * size + u);
             const float light = rgb_from_rgb9e5(levels.rgb9e5[static_cast<std::size_t>(level)][at]).x * levels.scale;
-            ASSERT_NEAR(light, kGrey.x, 0.05f) << "level " << level << " at " << u << "," << v;
+            ASSERT_NEAR(light, kElementGrey.x, 0.05f) << "level " << level << " at " << u << "," << v;
           }
       }
   }

@@ -54,7 +54,7 @@ inline std::array<Vec3, 6> add_room(Pack& pack, float half) {
   return colors;
 }
 
-inline Camera camera_at(const Vec3& eye, const Vec3& target, float fov = 0.8f) {
+inline Camera glass_camera(const Vec3& eye, const Vec3& target, float fov = 0.8f) {
   Camera camera;
   camera.eye = eye;
   camera.forward = glm::normalize(target - eye);
@@ -122,7 +122,7 @@ struct AbsorbedLight {
   static void add(Pack& pack) {
     add_quad(pack, {-9, -9, -2}, {18, 0, 0}, {0, 18, 0}, add_lamp(pack, Vec3(kLight)), -1);
   }
-  static Camera camera() { return camera_at({0.8f, 0.3f, 1.5f}, Vec3(0)); }
+  static Camera camera() { return glass_camera({0.8f, 0.3f, 1.5f}, Vec3(0)); }
   static void expect_in(const Picture& picture) {
     for (int y = 0; y < picture.height; y += 5)
       for (int x = 0; x < picture.width; x += 5) {

@@ -74,7 +74,7 @@ TEST_F(GlassMirrorTest, SlabShiftsWhatLiesBehind) {
   ShiftedEdge::add(pack);
   const Plate plate{{1.5f, 0, 1.2f}, {0, 0, -1}, 1};
   plate.add(pack, add_silver(pack));
-  const Camera camera = camera_at({1.5f, 0, 1.5f}, {0, 0, -1});
+  const Camera camera = glass_camera({1.5f, 0, 1.5f}, {0, 0, -1});
   const Picture seen = flipped(draw(pack, plate.mirror(camera), 160, 160));
   ShiftedEdge::expect_in(seen, camera);
   EXPECT_EQ(seen.stats.mirrored_glass, 1u);
@@ -111,7 +111,7 @@ Pack room_with(const Kind& kind) {
 }
 
 TEST_F(GlassMirrorTest, IsAsSeenFromBehindTheMirror) {
-  const Camera camera = camera_at({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f);
+  const Camera camera = glass_camera({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f);
   const Plate plate{{0.8f, 0.4f, 1.2f}, {0, 0, -1}, 1.15f};
   for (const Kind& kind : kKinds) {
     Pack pack = room_with(kind);
@@ -125,7 +125,7 @@ TEST_F(GlassMirrorTest, IsAsSeenFromBehindTheMirror) {
 
 // One that shows a part of what the eye before sees: the reflector's image is smaller than the frame, and lies aside.
 TEST_F(GlassMirrorTest, IsTheSameInASmallMirror) {
-  const Camera camera = camera_at({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f);
+  const Camera camera = glass_camera({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f);
   const Plate plate{{0.93f, 0.57f, 1.2f}, {0, 0, -1}, 0.07f};
   const auto within = [&](int column, int row) {
     const Vec3 d = pixel_ray(camera, 4 * column + 2, 4 * row + 2, 160, 120);
@@ -152,7 +152,7 @@ TEST_F(GlassMirrorTest, IsTheSameInASmallMirror) {
 
 // Two mirrors turn nothing round.
 TEST_F(GlassMirrorTest, IsAsSeenFromBehindTwoMirrors) {
-  const Camera camera = camera_at({1.2f, 0.2f, 1.5f}, Vec3(0), 0.4f);
+  const Camera camera = glass_camera({1.2f, 0.2f, 1.5f}, Vec3(0), 0.4f);
   const Plate first{{0.9f, 0.1f, 1.2f}, {0, 0, -1}, 0.5f};
   const Camera before = first.mirror(camera);
   const Plate second{before.eye + 0.12f * before.forward, glm::normalize(before.forward - Vec3(0, -1, 0)), 0.06f};
@@ -181,7 +181,7 @@ TEST_F(GlassMirrorTest, FrostedPanesBlurByTheDistanceBehind) {
     testing::add_quad(pack, {-3, -3, 0}, {6, 0, 0}, {0, 6, 0}, 0, -1);
     add_boards(pack, -behind);
     plate.add(pack, add_silver(pack));
-    const Camera camera = plate.mirror(camera_at({0, 0, 1}, Vec3(0), kBoardsFov));
+    const Camera camera = plate.mirror(glass_camera({0, 0, 1}, Vec3(0), kBoardsFov));
     const float found = edge_width(flipped(draw(pack, camera, kBoardsSize, kBoardsSize)), kBoardsSize);
     const float blur = pixels_of(slopes, behind);
     EXPECT_NEAR(found, std::sqrt(blur * blur + 4), 0.15f * blur + 1) << behind << " m behind, alone " << blur;
@@ -212,7 +212,7 @@ TEST_F(GlassMirrorTest, IsNotSeenInAnEvenLight) {
       const Plate plate{{0.8f, 0.4f, 1.2f}, {0, 0, -1}, 1.15f};
       plate.add(pack, add_silver(pack));
       make_even(pack, 80, glossy);
-      const Camera camera = plate.mirror(camera_at({1.2f, 0.7f, 1.5f}, Vec3(0), 0.5f));
+      const Camera camera = plate.mirror(glass_camera({1.2f, 0.7f, 1.5f}, Vec3(0), 0.5f));
       const Picture picture = draw(pack, camera, 64, 48);
       EXPECT_EQ(picture.stats.mirrored_glass, 1u);
       int off = 0;
@@ -233,7 +233,7 @@ TEST_F(GlassMirrorTest, GlossyReflectorsShowFrostedPanesWhereTheyAre) {
     plate.add(pack, add_silver(pack));
     make_even(pack, 80, true);
     if (board) pack.materials[0].base_color = Vec3(0), pack.materials[0].emission = Vec3(16);
-    pictures[board] = draw(pack, plate.mirror(camera_at({0, 0, 0.55f}, Vec3(0), 1.6f)), 160, 120);
+    pictures[board] = draw(pack, plate.mirror(glass_camera({0, 0, 0.55f}, Vec3(0), 1.6f)), 160, 120);
   }
   EXPECT_EQ(pictures[0].stats.mirrored_glass, 1u);
   EXPECT_LT(share_off(pictures[0], pictures[1], 2), 0.01);
@@ -243,7 +243,7 @@ TEST_F(GlassMirrorTest, GlossyReflectorsShowFrostedPanesWhereTheyAre) {
 // Light of pixels, and draws, are the same to the last bit with glass that no mirror shows, and without.
 TEST_F(GlassMirrorTest, CostsNothingWhereNoneIsSeen) {
   const Plate plate{{0, 0, 1}, {0, 0, -1}, 0.8f};
-  const Camera camera = camera_at({0.1f, 0.2f, -0.5f}, {0, 0, 1}, 1);
+  const Camera camera = glass_camera({0.1f, 0.2f, -0.5f}, {0, 0, 1}, 1);
   Pack pack = glass_pack(1.5f, 0);
   add_room(pack, 3);
   plate.add(pack, add_silver(pack));
@@ -261,10 +261,10 @@ TEST_F(GlassMirrorTest, IsTheSameAfterOtherFrames) {
   Pack pack = room_with(kKinds[2]);
   const Plate plate{{0.8f, 0.4f, 1.2f}, {0, 0, -1}, 1.15f};
   plate.add(pack, add_silver(pack));
-  const Camera camera = plate.mirror(camera_at({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f));
+  const Camera camera = plate.mirror(glass_camera({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f));
   const Picture first = draw(pack, camera, 101, 77);
   for (const int width : {33, 250, 64})
-    draw(pack, plate.mirror(camera_at({0.9f, 0.1f, 1.6f}, {0.1f, 0, 0}, 1)), width, 90);
+    draw(pack, plate.mirror(glass_camera({0.9f, 0.1f, 1.6f}, {0.1f, 0, 0}, 1)), width, 90);
   EXPECT_EQ(draw(pack, camera, 101, 77).rgb, first.rgb);
 }
 
@@ -275,7 +275,7 @@ TEST_F(GlassMirrorTest, IsThinWhereLittleIsSeenOfIt) {
   add_box(pack, Vec3(-0.02f), Vec3(0.02f));
   const Plate plate{{0, 0, 1}, {0, 0, -1}, 0.8f};
   plate.add(pack, add_silver(pack));
-  const Camera camera = plate.mirror(camera_at({0, 0, 2.9f}, Vec3(0), 1));
+  const Camera camera = plate.mirror(glass_camera({0, 0, 2.9f}, Vec3(0), 1));
   EXPECT_EQ(draw(pack, camera, 128, 72).stats.mirrored_glass, 0u);
 }
 
@@ -287,7 +287,7 @@ TEST_F(GlassMirrorTest, NoFrameDrawsItAfterManyMirrors) {
   Plate{{0, 0, -1}, {0, 0, 1}, 1}.add(pack, silver);
   Plate{{0, 0, 1}, {0, 0, -1}, 1}.add(pack, silver);
   FrameOptions options;
-  const Camera camera = camera_at({0.5f, 0.4f, 0}, {0.3f, 0.2f, 1}, 1);
+  const Camera camera = glass_camera({0.5f, 0.4f, 0}, {0.3f, 0.2f, 1}, 1);
   std::vector<std::uint32_t> drawn;
   for (const int orders : {1, 2, 3, 6}) {
     options.orders = orders;
@@ -304,9 +304,9 @@ TEST_F(GlassMirrorTest, NoFrameDrawsItAfterManyMirrors) {
 // A body that the mirror's plane cuts, one that the mirror lies in, and an eye in glass before a mirror; orthographic
 // ones too.
 TEST_F(GlassMirrorTest, IsFiniteWhereMirrorsAndGlassMeet) {
-  const Camera cameras[] = {camera_at({0.1f, 0.2f, -1.4f}, {0, 0, 1}, 1),
-                            camera_at({0.1f, 0.1f, 0}, {0, 0.1f, 1}, 1.2f),
-                            camera_at({0.3f, 0.2f, 0.99f}, {0, 0, 1}, 1)};
+  const Camera cameras[] = {glass_camera({0.1f, 0.2f, -1.4f}, {0, 0, 1}, 1),
+                            glass_camera({0.1f, 0.1f, 0}, {0, 0.1f, 1}, 1.2f),
+                            glass_camera({0.3f, 0.2f, 0.99f}, {0, 0, 1}, 1)};
   for (const Kind& kind : kKinds)
     for (const float at : {-0.3f, 0.4f}) {
       Pack pack = room_with(kind);

@@ -48,7 +48,7 @@ TEST_F(GlassTest, IsNotSeenInAnEvenLight) {
         Pack pack = glass_pack(ior, roughness);
         pack.sky = Vec3(100, 80, 60);
         ball ? add_ball(pack, Vec3(0), 0.7f) : add_box(pack, Vec3(-0.5f, -0.7f, -0.4f), Vec3(0.5f, 0.7f, 0.4f));
-        const Picture picture = draw(pack, camera_at({1, 0.8f, 2}, Vec3(0)), 48, 48);
+        const Picture picture = draw(pack, glass_camera({1, 0.8f, 2}, Vec3(0)), 48, 48);
         expect_even(picture, pack.sky, fmt::format("ior {} roughness {}{}", ior, roughness, ball ? " ball " : " box "));
       }
 }
@@ -57,7 +57,7 @@ TEST_F(GlassTest, IsNotSeenInAnEvenLight) {
 TEST_F(GlassTest, SlabShiftsWhatLiesBehind) {
   Pack pack = glass_pack(ShiftedEdge::kIor, 0);
   ShiftedEdge::add(pack);
-  const Camera camera = camera_at({1.5f, 0, 1.5f}, {0, 0, -1});
+  const Camera camera = glass_camera({1.5f, 0, 1.5f}, {0, 0, -1});
   ShiftedEdge::expect_in(draw(pack, camera, 160, 160), camera);
 }
 
@@ -89,7 +89,7 @@ TEST_F(GlassTest, BlockShowsTheWallsThatRaysFind) {
     n[side / 2] = side % 2 ? 1.0f : -1.0f;
     return n;
   };
-  const Camera camera = camera_at({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f);
+  const Camera camera = glass_camera({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f);
   constexpr int kSize = 96;
   const Picture picture = draw(pack, camera, kSize, kSize);
   // The wall that a pixel shows, -1 beside the block; + 6 where it was reflected totally.
@@ -141,7 +141,7 @@ TEST_F(GlassTest, FrostedBlurGrowsWithTheDistanceBehind) {
     Pack pack = glass_pack(1.5f, kRoughness);
     add_box(pack, Vec3(-3, -3, 0), Vec3(3, 3, 0.01f));
     add_boards(pack, -behind);
-    const Camera camera = camera_at({0, 0, 1.01f}, Vec3(0), kBoardsFov);
+    const Camera camera = glass_camera({0, 0, 1.01f}, Vec3(0), kBoardsFov);
     const float found = edge_width(draw(pack, camera, kBoardsSize, kBoardsSize), kBoardsSize);
     const float blur = pixels_of(slopes, behind);
     EXPECT_NEAR(found, std::sqrt(blur * blur + 4), 0.15f * blur + 1) << behind << " m behind, alone " << blur;
@@ -164,7 +164,7 @@ TEST_F(GlassTest, FrostedPanesBlurByTheDistanceBehind) {
       testing::add_quad(pack, {-3, -3, 0}, back ? Vec3(0, 6, 0) : Vec3(6, 0, 0), back ? Vec3(6, 0, 0) : Vec3(0, 6, 0),
                         0, -1);
       add_boards(pack, -behind);
-      const Camera camera = camera_at({0, 0, 1}, Vec3(0), kBoardsFov);
+      const Camera camera = glass_camera({0, 0, 1}, Vec3(0), kBoardsFov);
       const Picture picture = draw(pack, camera, kBoardsSize, kBoardsSize);
       const Vec3 bright = picture.at(kBoardsSize * 7 / 8, kBoardsSize / 2);
       EXPECT_NEAR(bright.x, 0.5f * bright.y, 0.5f) << "its tint";
@@ -179,10 +179,10 @@ TEST_F(GlassTest, FrostedPanesBlurByTheDistanceBehind) {
 // Eyes in the glass, on it, along it, numbers that are too large or none: finite, and no brighter than what there is.
 TEST_F(GlassTest, StaysWithinWhatCameIn) {
   const std::vector<Camera> cameras = {
-      camera_at({0.1f, 0.2f, 0.05f}, {1, 0, 0}),   camera_at({0, 0, 0.4f}, Vec3(0)),
-      camera_at({3, 0, 0.39f}, {0, 0, 0.39f}),     camera_at({3, 0.6f, 0.4001f}, {0, 0.6f, 0.4f}),
-      camera_at({0, 0, 0.4001f}, {5, 0, 0.4001f}), camera_at({2, 1, 2}, Vec3(0))};
-  Camera flat = camera_at({2, 1, 2}, Vec3(0));
+      glass_camera({0.1f, 0.2f, 0.05f}, {1, 0, 0}),   glass_camera({0, 0, 0.4f}, Vec3(0)),
+      glass_camera({3, 0, 0.39f}, {0, 0, 0.39f}),     glass_camera({3, 0.6f, 0.4001f}, {0, 0.6f, 0.4f}),
+      glass_camera({0, 0, 0.4001f}, {5, 0, 0.4001f}), glass_camera({2, 1, 2}, Vec3(0))};
+  Camera flat = glass_camera({2, 1, 2}, Vec3(0));
   flat.vertical_fov_rad = 0, flat.half_height = 1;
   for (const auto& [ior, roughness, absorption] : {std::tuple{1.5f, 0.0f, 0.0f},
                                                    {0.5f, 0.0f, 0.0f},
@@ -208,7 +208,7 @@ TEST_F(GlassTest, StaysWithinWhatCameIn) {
 TEST_F(GlassTest, CostsNothingOutOfView) {
   Pack pack = glass_pack(1.5f, 0);
   testing::add_quad(pack, {-1, -1, -2}, {2, 0, 0}, {0, 2, 0}, add_lamp(pack, Vec3(100)), -1);
-  const Camera camera = camera_at({0, 0, 0}, {0, 0, -1});
+  const Camera camera = glass_camera({0, 0, 0}, {0, 0, -1});
   const std::uint32_t without = draw(pack, camera, 16, 16).stats.draws;
   add_box(pack, {-0.5f, -0.5f, 3}, {0.5f, 0.5f, 4});
   EXPECT_EQ(draw(pack, camera, 16, 16).stats.draws, without);

@@ -93,7 +93,7 @@ TEST_F(GlassWindowTest, PoolShowsTheFloorBehindItsEdge) {
   for (const auto& [eye, target] : {std::pair{Vec3(-13, 1.6f, 0.3f), Vec3(-10, -0.8f, 0)},
                                     {Vec3(-11, 1.6f, -3.5f), Vec3(-9, -0.8f, 0)},
                                     {Vec3(0, 1.7f, 3.4f), Vec3(0.5f, -0.8f, 1)}}) {
-    const Camera camera = camera_at(eye, target, 1);
+    const Camera camera = glass_camera(eye, target, 1);
     const Counted counted = count_right(draw(pack, camera, 240, 160), camera, basin);
     EXPECT_GT(counted.total, 200);
     EXPECT_GT(counted.right, counted.total * 97 / 100) << "of " << counted.total << " from " << eye.x;
@@ -106,7 +106,7 @@ TEST_F(GlassWindowTest, SurroundingsAreFoundAtSmallAngles) {
   const Basin basin({-4, -2}, {4, 2}, 0.5f);
   Pack pack = glass_pack(Basin::kIor, 0);
   basin.add(pack);
-  Camera camera = camera_at({-7, 1, 0.3f}, {-4, 0.1f, 0.3f}, 0.5f * kPi);
+  Camera camera = glass_camera({-7, 1, 0.3f}, {-4, 0.1f, 0.3f}, 0.5f * kPi);
   const Picture picture = [&] {
     Camera flat = camera;
     flat.vertical_fov_rad = 0, flat.half_height = 1;

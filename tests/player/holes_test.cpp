@@ -5,7 +5,7 @@ namespace oriel {
 namespace {
 using namespace testing;
 
-Pack mirror_pack(std::uint32_t size = 64) {
+Pack pack_with_holes(std::uint32_t size = 64) {
   Pack pack;
   pack.materials.resize(1);
   pack.materials[0].fresnel_map = 0;
@@ -27,7 +27,7 @@ class Holes : public FrameTest {
 };
 
 TEST_F(Holes, AreCountedOverTheMirrorsPixels) {
-  const Pack whole = mirror_pack();
+  const Pack whole = pack_with_holes();
   for (const Reflections mode : {Reflections::kMarch, Reflections::kPoints}) {
     const FrameStats stats = count(whole, mode);
     const std::vector<std::int32_t> shown = renderer_->read_reflective();
@@ -39,7 +39,7 @@ TEST_F(Holes, AreCountedOverTheMirrorsPixels) {
     EXPECT_EQ(stats.holes, 0u);
   }
   // Nothing is known of the map's left half.
-  Pack half = mirror_pack();
+  Pack half = pack_with_holes();
   RadianceMap& map = half.radiance_maps[0];
   for (std::uint32_t y = 0; y < map.height; ++y)
     for (std::uint32_t x = 0; x < map.width / 2; ++x) map.valid[y * map.width + x] = 0;
@@ -52,7 +52,7 @@ TEST_F(Holes, AreCountedOverTheMirrorsPixels) {
 
 // As published what no map tells of stays black, and a kernel for all of the image reaches over its edge.
 TEST_F(Holes, StayBlackWhereTheyAreNotFilled) {
-  Pack half = mirror_pack();
+  Pack half = pack_with_holes();
   RadianceMap& map = half.radiance_maps[0];
   for (std::uint32_t i = 0; i < map.width * map.height; ++i) map.valid[i] = i % map.width >= map.width / 2;
   BrdfKernel kernel;
@@ -81,7 +81,7 @@ TEST_F(Holes, StayBlackWhereTheyAreNotFilled) {
 // more than two where the plane is far enough.
 TEST_F(Holes, SharpIsWhereAMapPixelCoversNoMoreThanTwo) {
   const auto share = [&](std::uint32_t size) {
-    const FrameStats stats = count(mirror_pack(size), Reflections::kMarch);
+    const FrameStats stats = count(pack_with_holes(size), Reflections::kMarch);
     EXPECT_EQ(stats.mirror_pixels, stats.reflected_pixels);
     return static_cast<double>(stats.sharp) / static_cast<double>(stats.mirror_pixels);
   };
@@ -89,8 +89,8 @@ TEST_F(Holes, SharpIsWhereAMapPixelCoversNoMoreThanTwo) {
   EXPECT_EQ(share(4), 0);
   const double distance = 90 / (2 * std::tan(1.1)) / 18;  // of a map of 18² pixels: a circle in the square of 4 m²
   EXPECT_NEAR(share(18), 1 - kPi * (distance * distance - 1) / 4, 0.02);
-  EXPECT_EQ(count(mirror_pack(), Reflections::kPoints).mirror_pixels, 0u) << "known for march only";
-  Pack blurred = mirror_pack();
+  EXPECT_EQ(count(pack_with_holes(), Reflections::kPoints).mirror_pixels, 0u) << "known for march only";
+  Pack blurred = pack_with_holes();
   blurred.kernels.resize(1);
   blurred.kernels[0].size = 3;
   blurred.kernels[0].weights.assign(9, 1.0f / 9);

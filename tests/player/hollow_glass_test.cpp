@@ -92,7 +92,7 @@ TEST_F(HollowGlassTest, ForkShiftsWhatLiesBehindTwice) {
   Pack pack = glass_pack(ShiftedEdge::kIor, 0);
   add_fork(pack, 0.5f * ShiftedEdge::kThick, 0.3f);
   testing::add_quad(pack, {0, -4, ShiftedEdge::kBehind}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(100)), -1);
-  const Camera camera = camera_at({1.5f, 0, 1.5f}, {0, 0, -1});
+  const Camera camera = glass_camera({1.5f, 0, 1.5f}, {0, 0, -1});
   ShiftedEdge::expect_in(draw(pack, camera, 160, 160), camera);
 }
 
@@ -110,7 +110,7 @@ TEST_F(HollowGlassTest, ShowsWhatStandsInIt) {
   add_fork(pack, 0.1f, 0.3f);
   testing::add_quad(pack, {-9, -9, -2}, {18, 0, 0}, {0, 18, 0}, add_lamp(pack, Vec3(100)), -1);
   testing::add_quad(pack, {-1, -1, -0.2f}, {1, 0, 0}, {0, 2, 0}, add_lamp(pack, Vec3(50)), -1);
-  const Picture picture = draw(pack, camera_at({0, 0, 1.5f}, Vec3(0)), 64, 64);
+  const Picture picture = draw(pack, glass_camera({0, 0, 1.5f}, Vec3(0)), 64, 64);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(picture.at(20, 32)[c], 50 * std::exp(-0.1f * absorption[c]), 1);
     EXPECT_NEAR(picture.at(44, 32)[c], 100 * std::exp(-0.2f * absorption[c]), 1);
@@ -145,7 +145,7 @@ TEST_F(HollowGlassTest, CupShowsTheWallsThatRaysFind) {
   add_cup(pack);
   const std::vector<GlassTriangle> cup = triangles_of(pack, pack.mesh.indices.size());
   const std::array<Vec3, 6> colors = add_room(pack, kRoom);
-  const Camera camera = camera_at({0.9f, 0.8f, 1.7f}, Vec3(0), 0.7f);
+  const Camera camera = glass_camera({0.9f, 0.8f, 1.7f}, Vec3(0), 0.7f);
   constexpr int kSize = 96;
   const Picture picture = draw(pack, camera, kSize, kSize);
   // The wall that a pixel shows, -1 beside the cup, -2 where it takes more than the player follows.
@@ -194,7 +194,7 @@ TEST_F(HollowGlassTest, IsNotSeenInAnEvenLight) {
         Pack pack = glass_pack(ior, roughness);
         pack.sky = Vec3(100, 80, 60);
         cup ? add_cup(pack) : add_fork(pack, 0.2f, 0.3f, 0.5f);
-        const Picture picture = draw(pack, camera_at({0.7f, 0.9f, 2}, Vec3(0)), 48, 48);
+        const Picture picture = draw(pack, glass_camera({0.7f, 0.9f, 2}, Vec3(0)), 48, 48);
         EXPECT_EQ(picture.stats.glass, 1u);
         expect_even(picture, pack.sky, fmt::format("ior {} roughness {}{}", ior, roughness, cup ? " cup " : " fork "));
       }
@@ -207,7 +207,7 @@ TEST_F(HollowGlassTest, IsFinite) {
     add_cup(pack);
     add_room(pack, 2);
     for (const Vec3& eye : {Vec3(0.45f, 0.1f, 0), Vec3(0, 0.1f, 0.05f), Vec3(0.45f, 0.65f, 0), Vec3(0, 1.5f, 0.01f)})
-      for (Camera camera : {camera_at(eye, Vec3(0), 1), camera_at(eye, {1, 0.3f, 1}, 1)})
+      for (Camera camera : {glass_camera(eye, Vec3(0), 1), glass_camera(eye, {1, 0.3f, 1}, 1)})
         for (const float half_height : {0.0f, 1.0f}) {
           if (half_height > 0) camera.vertical_fov_rad = 0, camera.half_height = half_height;
           EXPECT_TRUE(draw(pack, camera, 32, 24).finite()) << eye.x << ' ' << eye.y;

@@ -57,7 +57,7 @@ Pack lit_floor() {
 }
 
 // From above the floor, below the lamp; up is -z.
-Camera camera() {
+Camera camera_above() {
   return {"c", {0, 1, 0}, {0, -1, 0}, {0, 0, -1}, 1.5f, 0};
 }
 
@@ -71,11 +71,11 @@ using LampsTest = FrameTest;
 
 TEST_F(LampsTest, WhereNothingMovedFramesAreTheBakesToTheBit) {
   const Pack pack = lit_floor();
-  const Picture baked = draw(pack, camera(), 64, 64);
-  EXPECT_EQ(draw(pack, camera(), 64, 64, {.lamps = {{}, {}}}).rgb, baked.rgb);
+  const Picture baked = draw(pack, camera_above(), 64, 64);
+  EXPECT_EQ(draw(pack, camera_above(), 64, 64, {.lamps = {{}, {}}}).rgb, baked.rgb);
   const auto scene = GpuScene::create(pack, device_);
   ASSERT_TRUE(scene);
-  const View view = make_view(camera(), 64, 64, (*scene)->bounds());
+  const View view = make_view(camera_above(), 64, 64, (*scene)->bounds());
   const auto render = [&](const FrameOptions& options) {
     EXPECT_TRUE(renderer_->render(**scene, view, options));
     return renderer_->read_light();
@@ -90,7 +90,7 @@ TEST_F(LampsTest, DirectLightIsTheClosedFormInEachMode) {
   const Pack pack = lit_floor();
   for (const LiveMode mode : {LiveMode::kFitted, LiveMode::kDifferential, LiveMode::kOnly})
     for (const float factor : {1.0f, 0.5f}) {
-      const Picture picture = draw(pack, camera(), 64, 64,
+      const Picture picture = draw(pack, camera_above(), 64, 64,
                                    {.lights = {Vec3(factor), Vec3(1)},
                                     .lamps = {shifted({1, 0.5f, 0}), {}},
                                     .live = {{.lights = 256, .direct_share = 1, .bounces = 0}, mode}});
@@ -120,7 +120,7 @@ TEST_F(LampsTest, WhatIsCoveredLosesTheLightOfALampThatIsGone) {
 }
 
 TEST_F(LampsTest, TheLampIsSeenWhereItIs) {
-  Camera up = camera();
+  Camera up = camera_above();
   up.forward = {0, 1, 0}, up.up = {0, 0, 1}, up.eye = {0, 0.5f, 0};
   const Picture before = draw(lit_floor(), up, 64, 64);
   const Picture after = draw(lit_floor(), up, 64, 64, {.lamps = {shifted({1.2f, 0, 0}), {}}});
@@ -133,7 +133,7 @@ TEST_F(LampsTest, AnyNumberOfLightsIsFinite) {
   for (const LiveOptions& lights : {LiveOptions{0}, LiveOptions{1}, LiveOptions{.lights = 3000, .bounces = 100},
                                     LiveOptions{3000, LiveIndirect::kLights, 0.5f, 3}})
     for (const Vec3& shift : {Vec3(0, -2, 0), Vec3(0, -1.9999f, 0), Vec3(0, -3, 0), Vec3(1e5f, 0, 0)}) {
-      const Picture picture = draw(lit_floor(), camera(), 32, 32,
+      const Picture picture = draw(lit_floor(), camera_above(), 32, 32,
                                    {.lamps = {shifted(shift), {}}, .live = {lights, LiveMode::kFitted, false}});
       EXPECT_TRUE(picture.finite()) << lights.lights << " lights, moved by " << shift.x << ", " << shift.y << ": "
                                     << picture.at(16, 16).x;

@@ -7,23 +7,23 @@ namespace {
 using namespace testing;
 using LightmapForms = FrameTest;
 
-constexpr std::uint32_t kTexels = 16;
+constexpr std::uint32_t kFormTexels = 16;
 constexpr float kShown = 0.5f / kPi;                                // of a lux, cd/m²
 const Camera kCamera{"c", {0, 0, 2}, {0, 0, -1}, {0, 1, 0}, 0, 1};  // all of the wall, and nothing else
 const FrameOptions kBicubic{.lightmap_filter = LightmapFilter::kBicubic};
 
 // Of 2 m, its lower left corner at (-1, -1).
-Pack wall(const std::function<float(std::uint32_t x, std::uint32_t y)>& lux) {
+Pack lit_wall(const std::function<float(std::uint32_t x, std::uint32_t y)>& lux) {
   Pack pack;
   pack.materials.resize(1);
   pack.materials[0].base_color = Vec3(0.5f);
   add_quad(pack, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0, 0);
-  pack.lightmaps = {page_of(kTexels, [&](auto x, auto y) { return Vec3(lux(x, y)); })};
+  pack.lightmaps = {page_of(kFormTexels, [&](auto x, auto y) { return Vec3(lux(x, y)); })};
   return pack;
 }
 
 TEST_F(LightmapForms, AConstantIsTheSameInAll) {
-  Pack pack = wall([](auto, auto) { return 512.0f; });
+  Pack pack = lit_wall([](auto, auto) { return 512.0f; });
   const Picture texture = draw(pack, kCamera, 32, 32), bicubic = draw(pack, kCamera, 32, 32, kBicubic);
   pack.vertex_light.irradiance.assign(4, Vec3(512));
   const Picture vertices = draw(pack, kCamera, 32, 32);
@@ -35,7 +35,7 @@ TEST_F(LightmapForms, AConstantIsTheSameInAll) {
 }
 
 TEST_F(LightmapForms, VerticesShowAGradient) {
-  Pack pack = wall([](auto, auto) { return 0.0f; });
+  Pack pack = lit_wall([](auto, auto) { return 0.0f; });
   for (const Vec3& p : pack.mesh.positions)
     pack.vertex_light.irradiance.push_back({300 + 200 * p.x, 100, 50 - 50 * p.y});
   const Picture picture = draw(pack, kCamera, 32, 32);
@@ -49,7 +49,7 @@ TEST_F(LightmapForms, VerticesShowAGradient) {
 
 // A group of lamps that shines otherwise: vertices do not know of it, the lightmap does.
 TEST_F(LightmapForms, LampsThatAreDimmedShowTheLightmap) {
-  Pack pack = wall([](auto, auto) { return 100.0f; });
+  Pack pack = lit_wall([](auto, auto) { return 100.0f; });
   pack.vertex_light.irradiance.assign(4, Vec3(200));
   pack.light_groups.resize(1);
   pack.light_groups[0].name = "lamp";
@@ -64,7 +64,7 @@ float spline(float t) {
 
 // One lit texel: 4/9 of it at its centre, 1/9 at those beside it, 1/36 across; and the spline between.
 TEST_F(LightmapForms, BicubicIsABSpline) {
-  const Pack pack = wall([](auto x, auto y) { return x == 8 && y == 8 ? 3600.0f : 0.0f; });
+  const Pack pack = lit_wall([](auto x, auto y) { return x == 8 && y == 8 ? 3600.0f : 0.0f; });
   const Picture centres = draw(pack, kCamera, 16, 16, kBicubic);
   EXPECT_NEAR(centres.at(8, 7).r, 1600 * kShown, 0.2f);
   EXPECT_NEAR(centres.at(9, 7).r, 400 * kShown, 0.1f);
@@ -80,7 +80,7 @@ TEST_F(LightmapForms, BicubicIsABSpline) {
 
 // Two charts beside each other, one lit. Neither of them reads the other by the spline.
 TEST_F(LightmapForms, BicubicKeepsToItsChart) {
-  Pack pack = wall([](auto x, auto) { return x < 8 ? 10.0f : 9000.0f; });
+  Pack pack = lit_wall([](auto x, auto) { return x < 8 ? 10.0f : 9000.0f; });
   pack.mesh = {};
   add_quad(pack, {-1, -1, 0}, {1, 0, 0}, {0, 2, 0}, 0, 0);
   add_quad(pack, {0, -1, 0}, {1, 0, 0}, {0, 2, 0}, 0, 0);
@@ -95,15 +95,15 @@ TEST_F(LightmapForms, BicubicKeepsToItsChart) {
 
 // As without it where cells have light of their own.
 TEST_F(LightmapForms, FinerCellsStayWhatTheyAre) {
-  Pack pack = wall([](auto x, auto y) { return static_cast<float>(100 * ((x + y) % 3)); });
+  Pack pack = lit_wall([](auto x, auto y) { return static_cast<float>(100 * ((x + y) % 3)); });
   LightmapPage& page = pack.lightmaps[0];
-  page.cell.assign(kTexels * kTexels, 0);
+  page.cell.assign(kFormTexels * kFormTexels, 0);
   page.detail_width = page.detail_height = 3;
   page.detail.assign(9, Vec3(70));
-  for (std::uint32_t y = 0; y + 1 < kTexels; ++y)
-    for (std::uint32_t x = 0; x + 1 < kTexels; ++x) page.cell[y * kTexels + x] = DetailBlock{0, 0, 1}.code();
+  for (std::uint32_t y = 0; y + 1 < kFormTexels; ++y)
+    for (std::uint32_t x = 0; x + 1 < kFormTexels; ++x) page.cell[y * kFormTexels + x] = DetailBlock{0, 0, 1}.code();
   EXPECT_EQ(draw(pack, kCamera, 64, 64).rgb, draw(pack, kCamera, 64, 64, kBicubic).rgb);
-  page.cell.assign(kTexels * kTexels, 0);
+  page.cell.assign(kFormTexels * kFormTexels, 0);
   EXPECT_NE(draw(pack, kCamera, 64, 64).rgb, draw(pack, kCamera, 64, 64, kBicubic).rgb) << "no cell";
 }
 

@@ -55,7 +55,7 @@ Pack two_walls() {
   return pack;
 }
 
-Camera camera() {
+Camera camera_of_map() {
   return {"c", {0.1f, 0.1f, 1.2f}, {0, 0, -1}, {0, 1, 0}, 1.2f, 0};
 }
 
@@ -63,12 +63,12 @@ enum class What { kLeft, kRight, kPanelSeen, kSkySeen, kEdge };
 
 // What a pixel of the mirror shows, as the rays beside its own do too.
 What shown(int x, int y, int width, int height) {
-  const View view = make_view(camera(), width, height, {});
+  const View view = make_view(camera_of_map(), width, height, {});
   const auto at = [&](float u, float v) {
     const Vec2 ndc((static_cast<float>(x) + u) / static_cast<float>(width) * 2 - 1,
                    1 - (static_cast<float>(y) + v) / static_cast<float>(height) * 2);
     Vec3 direction = glm::transpose(Mat3(view.view_from_pack)) * Vec3(ndc * view.tangents, -1);
-    const Vec2 on_plane = Vec2(camera().eye) + Vec2(direction) * (camera().eye.z / -direction.z);
+    const Vec2 on_plane = Vec2(camera_of_map().eye) + Vec2(direction) * (camera_of_map().eye.z / -direction.z);
     if (std::abs(on_plane.x) > 0.98f || std::abs(on_plane.y) > 0.98f) return What::kEdge;
     direction.z = -direction.z;
     const Seen s = seen(on_plane, direction);
@@ -106,14 +106,14 @@ class LightsInMaps : public FrameTest {
     return {left * kColor[0] * kLight[0] / kPi, right * kColor[1] * kLight[1] / kPi, left * kShine, sky * kSky};
   }
   Picture draw(GpuScene& scene, const FrameOptions& options) {
-    const auto stats = renderer_->render(scene, make_view(camera(), kWidth, kHeight, scene.bounds()), options);
+    const auto stats = renderer_->render(scene, make_view(camera_of_map(), kWidth, kHeight, scene.bounds()), options);
     EXPECT_TRUE(stats) << stats.error().text();
     return {kWidth, kHeight, renderer_->read_light(), {}};
   }
   // Once nothing is on its way.
   Picture settle(GpuScene& scene, const FrameOptions& options) {
     for (int i = 0; i < 2000; ++i) {
-      EXPECT_TRUE(scene.aim(make_view(camera(), kWidth, kHeight, scene.bounds())));
+      EXPECT_TRUE(scene.aim(make_view(camera_of_map(), kWidth, kHeight, scene.bounds())));
       EXPECT_TRUE(scene.advance(std::chrono::milliseconds(1)).empty());
       const Picture picture = draw(scene, options);
       EXPECT_FALSE(scene.has_live_news()) << "a frame shows all that has come";
@@ -161,7 +161,7 @@ TEST_F(LightsInMaps, ThoseThatComeLaterAreTheSame) {
   options.reflections = Reflections::kMarch;
   const std::vector<Vec3> lights{Vec3(2), Vec3(0.5f), Vec3(0)};
   options.lights = lights;
-  const Picture wanted = FrameTest::draw(pack, camera(), kWidth, kHeight, options);
+  const Picture wanted = FrameTest::draw(pack, camera_of_map(), kWidth, kHeight, options);
   std::uint64_t limit = kNoLimit;
   for (int run = 0; run < 2; ++run) {
     auto scene = GpuScene::create(pack, device_, {true, limit});
@@ -185,9 +185,9 @@ TEST_F(LightsInMaps, ALampThatMovesIsShownWhereItIs) {
   options.lamps.resize(3);
   options.lamps[0].position = Vec3(1.2f, 0.3f, -0.4f);
   options.reflections = Reflections::kGeometry;
-  const Picture wanted = FrameTest::draw(pack, camera(), kWidth, kHeight, options);
+  const Picture wanted = FrameTest::draw(pack, camera_of_map(), kWidth, kHeight, options);
   options.reflections = Reflections::kMarch;
-  const Picture found = FrameTest::draw(pack, camera(), kWidth, kHeight, options);
+  const Picture found = FrameTest::draw(pack, camera_of_map(), kWidth, kHeight, options);
   int lamp = 0, uncovered = 0, wrong = 0, edges = 0;
   for (int y = 4; y + 4 < kHeight; ++y)
     for (int x = 4; x + 4 < kWidth; ++x) {
@@ -246,20 +246,21 @@ TEST_F(LightsInMaps, SurroundMapsFollowToo) {
       pack.light_groups[g].name = std::to_string(g), pack.light_groups[g].surrounds = {Vec3(0.5f)};
     return pack;
   };
-  const Camera camera = test::looking_at({0.9f, 1.5f, 1.7f}, ball.centre);
+  const Camera camera_of_map = test::looking_at({0.9f, 1.5f, 1.7f}, ball.centre);
   FrameOptions options;
   options.show = Show::kMKR;
-  const Picture dark = FrameTest::draw(
-      pack_of([&](const Vec3& p) { return at_upper_x(p) ? Vec3(0) : test::wall_light(p); }), camera, 120, 90, options);
+  const Picture dark =
+      FrameTest::draw(pack_of([&](const Vec3& p) { return at_upper_x(p) ? Vec3(0) : test::wall_light(p); }),
+                      camera_of_map, 120, 90, options);
   const Pack pack = pack_of(test::wall_light);
-  const Picture baked = FrameTest::draw(pack, camera, 120, 90, options);
+  const Picture baked = FrameTest::draw(pack, camera_of_map, 120, 90, options);
   options.lights = {Vec3(1), Vec3(0)};
-  const Picture followed = FrameTest::draw(pack, camera, 120, 90, options);
+  const Picture followed = FrameTest::draw(pack, camera_of_map, 120, 90, options);
   EXPECT_NE(baked.rgb, dark.rgb) << "else nothing is tested";
   for (std::size_t i = 0; i < dark.rgb.size(); ++i)
     ASSERT_NEAR(followed.rgb[i], dark.rgb[i], 0x1p-7f * dark.rgb[i] + 0.05f);
   options.lights = {Vec3(1), Vec3(1)};
-  EXPECT_EQ(FrameTest::draw(pack, camera, 120, 90, options).rgb, baked.rgb);
+  EXPECT_EQ(FrameTest::draw(pack, camera_of_map, 120, 90, options).rgb, baked.rgb);
 }
 
 // From a plane at z = 0 half of the pixels see a mirror at z = 2, and in it a wall at z = -1; as far away as its image

@@ -64,7 +64,7 @@ struct Ray {
   Vec3 direction;
 };
 
-class March : public testing::Test {
+class March : public ::testing::Test {
  protected:
   float random(float low, float high) { return std::uniform_real_distribution<float>(low, high)(generator_); }
   // From a mirrored eye near the map's, through the element.

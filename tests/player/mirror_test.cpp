@@ -34,7 +34,7 @@ Pack mirror_pack(const std::function<Seen(const Vec2&, const Vec3&)>& seen = wal
   return pack;
 }
 
-Camera camera_at(const Vec3& eye, const Vec3& target = Vec3(0)) {
+Camera camera_to_mirror(const Vec3& eye, const Vec3& target = Vec3(0)) {
   return look_at(eye, target, 1.4f);
 }
 
@@ -95,7 +95,7 @@ TEST_F(Mirror, ShowsTheSquareWhereGeometrySays) {
         FrameOptions options;
         options.reflections = mode;
         options.selection = selection;
-        const Camera camera = camera_at(eye);
+        const Camera camera = camera_to_mirror(eye);
         const Picture p = draw(pack, camera, 160, 120, options);
         EXPECT_GT(check(p, camera, {0.5f, 0.5f, 1}, mode == Reflections::kPoints ? kPixel : kFiltered), 40)
             << eye.x << " " << eye.y << " " << eye.z;
@@ -107,7 +107,7 @@ TEST_F(Mirror, ShowsTheSquareWhereGeometrySays) {
 }
 
 TEST_F(Mirror, StagesAndReflectances) {
-  const Camera camera = camera_at({0.2f, 0.1f, 1.2f});
+  const Camera camera = camera_to_mirror({0.2f, 0.1f, 1.2f});
   FrameOptions options;
   for (const Reflectance reflectance : {Reflectance::kTable, Reflectance::kSphereMap}) {
     options.reflectance = reflectance;
@@ -134,7 +134,7 @@ TEST_F(Mirror, SphereMapsAreLookedUpAtVertices) {
     const Vec2 p = (Vec2(i % 128, i / 128) + 0.5f) / 64.0f - 1.0f;
     map.sphere.emplace_back(std::max(1 - glm::dot(p, p), 0.0f));
   }
-  const Camera camera = camera_at({0.2f, 0.1f, 0.5f});
+  const Camera camera = camera_to_mirror({0.2f, 0.1f, 0.5f});
   const auto worst = [&](int cells) {
     FrameOptions options;
     options.reflectance = Reflectance::kSphereMap;
@@ -160,7 +160,7 @@ TEST_F(Mirror, SphereMapsAreLookedUpAtVertices) {
 // The checker above must see a mirror that is wrong: maps whose depth says the wall is nearer than it is.
 TEST_F(Mirror, WrongDepthIsSeen) {
   const Pack pack = mirror_pack([](const Vec2& p, const Vec3& d) { return Seen{wall(p, d).radiance, 1.5f}; });
-  const Camera camera = camera_at({0.5f, 0.3f, 1.5f});
+  const Camera camera = camera_to_mirror({0.5f, 0.3f, 1.5f});
   const Picture p = draw(pack, camera, 160, 120);
   int wrong = 0;
   for (int y = 0; y < 120; ++y) {
@@ -178,7 +178,7 @@ TEST_F(Mirror, TheSkyIsReflectedAtInfinity) {
     return Seen{d.x > 0 ? kRed : kGrey, std::numeric_limits<float>::infinity()};
   });
   for (const float x : {-0.5f, 0.0f, 0.5f}) {
-    const Camera camera = camera_at({x, 0, 2}, {x, 0, 0});
+    const Camera camera = camera_to_mirror({x, 0, 2}, {x, 0, 0});
     const Picture p = draw(pack, camera, 81, 61);  // the sky's edge stays in the middle wherever the eye moves
     EXPECT_NEAR(p.at(36, 30).x, 0.5f * kGrey.x, 1e-3f);
     EXPECT_NEAR(p.at(44, 30).x, 0.5f * kRed.x, 1e-3f);
@@ -192,11 +192,11 @@ TEST_F(Mirror, DisocclusionsAreFilled) {
     return std::fabs(at.x) < 0.15f ? Seen{Vec3(20), 1.0f} : Seen{kGrey, kWall};
   };
   const Pack pack = mirror_pack(post, {{0, 0, -1}});
-  const Picture p = draw(pack, camera_at({0.9f, 0, 1.4f}), 160, 120);
+  const Picture p = draw(pack, camera_to_mirror({0.9f, 0, 1.4f}), 160, 120);
   int seen = 0;
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 160; ++x) {
-      if (!expected_at(camera_at({0.9f, 0, 1.4f}), x, y, 160, 120, 0.01f).on_mirror) continue;
+      if (!expected_at(camera_to_mirror({0.9f, 0, 1.4f}), x, y, 160, 120, 0.01f).on_mirror) continue;
       ++seen;
       EXPECT_GE(p.at(x, y).x, 0.5f * kGrey.x * 0.99f) << x << "," << y;
       EXPECT_LE(p.at(x, y).x, 10.01f) << x << "," << y;
@@ -212,7 +212,7 @@ TEST_F(Mirror, NearThingsHideFarOnes) {
   };
   const Pack pack = mirror_pack(post);
   for (const Vec3& eye : {Vec3(0.2f, 0, 1), Vec3(-0.5f, 0.3f, 1.2f)}) {
-    const Camera camera = camera_at(eye);
+    const Camera camera = camera_to_mirror(eye);
     FrameOptions options;
     options.show = Show::kM;
     options.maps_per_element = 5;
@@ -243,7 +243,7 @@ TEST_F(Mirror, InvalidPixelsLeaveNoHoles) {
       if (i % map.width > 20) map.valid[i] = 0;
     }
   }
-  const Camera camera = camera_at({0, 0, 1});
+  const Camera camera = camera_to_mirror({0, 0, 1});
   const Picture p = draw(pack, camera, 80, 60);
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 80; ++x) {
@@ -268,7 +268,7 @@ TEST_F(Mirror, AKernelKeepsAFlatImageAndBlursAnEdgeByItsDistance) {
   Pack pack = mirror_pack([](const Vec2&, const Vec3&) { return Seen{kGrey, kWall}; });
   pack.kernels.push_back(box_kernel(9, 0.3f));
   pack.materials[0].kernel = 0;
-  const Camera camera = camera_at({0.2f, 0.1f, 1.2f});
+  const Camera camera = camera_to_mirror({0.2f, 0.1f, 1.2f});
   const Picture flat = draw(pack, camera, 160, 120);
   EXPECT_NEAR(flat.at(80, 60).x, 0.5f * kGrey.x, 1e-3f);
   EXPECT_NEAR(flat.at(80, 60).z, kGrey.z, 1e-3f);
@@ -282,7 +282,7 @@ TEST_F(Mirror, AKernelKeepsAFlatImageAndBlursAnEdgeByItsDistance) {
   blurred.kernels = pack.kernels;
   blurred.materials[0].kernel = 0;
   const float eye = 1;
-  const Camera straight = camera_at({0, 0, eye});
+  const Camera straight = camera_to_mirror({0, 0, eye});
   const int width = 480, height = 360;
   const Picture p = draw(blurred, straight, width, height);
   const float pixels = 0.5f * height / std::tan(0.5f * straight.vertical_fov_rad) * 0.3f * kWall / (kWall + eye);
@@ -302,20 +302,21 @@ TEST_F(Mirror, EdgeOnOnThePlaneAndBehind) {
   for (const Vec3& eye : {Vec3(3, 0, 0), Vec3(3, 0, 1e-7f), Vec3(3, 0, 1e-3f), Vec3(0, 0, 0), Vec3(0.3f, 0, -1),
                           Vec3(0, 0, 1e-6f), Vec3(500, 0, 0.01f)}) {
     for (const Vec3& target : {Vec3(0.01f, 0, 0), Vec3(0, 0.4f, -2)}) {
-      const Picture p = draw(pack, camera_at(eye, target), 64, 48);
+      const Picture p = draw(pack, camera_to_mirror(eye, target), 64, 48);
       EXPECT_TRUE(p.finite()) << eye.x << " " << eye.z;
     }
   }
   FrameOptions options;
   options.show = Show::kM;
-  EXPECT_EQ(draw(pack, camera_at({0, 0, -1}), 64, 48, options).stats.reflectors, 0u) << "behind it there is no mirror";
+  EXPECT_EQ(draw(pack, camera_to_mirror({0, 0, -1}), 64, 48, options).stats.reflectors, 0u)
+      << "behind it there is no mirror";
 }
 
 TEST_F(Mirror, HiddenMirrorsCostNothing) {
   Pack pack = mirror_pack();
   pack.lightmaps.push_back(flat_page(Vec3(100)));
   add_quad(pack, {-2, -2, 0.5f}, {4, 0, 0}, {0, 4, 0}, 1, 0);  // a board before the mirror
-  const Picture p = draw(pack, camera_at({0, 0, 2}), 64, 48);
+  const Picture p = draw(pack, camera_to_mirror({0, 0, 2}), 64, 48);
   EXPECT_EQ(p.stats.reflectors, 0u);
   EXPECT_EQ(p.stats.points, 0u);
   EXPECT_NEAR(p.at(32, 24).x, 100 / kPi, 0.02f);
@@ -327,11 +328,11 @@ TEST_F(Mirror, SeeThroughReflectorsAdd) {
   pack.materials[0].metallic = 0;
   pack.materials[0].transmission = 1;
   pack.sky = {64, 64, 64};
-  const Picture p = draw(pack, camera_at({0, 0, 1}), 64, 48);
+  const Picture p = draw(pack, camera_to_mirror({0, 0, 1}), 64, 48);
   // max R = 1: nothing passes; then a quarter.
   EXPECT_NEAR(p.at(32, 24).x, 0.5f * kGrey.x, 1e-2f);
   pack.fresnel_maps[0] = flat_reflectance(Vec3(0.25f));
-  EXPECT_NEAR(draw(pack, camera_at({0, 0, 1}), 64, 48).at(32, 24).x, 0.25f * kGrey.x + 0.75f * 64, 1e-2f);
+  EXPECT_NEAR(draw(pack, camera_to_mirror({0, 0, 1}), 64, 48).at(32, 24).x, 0.25f * kGrey.x + 0.75f * 64, 1e-2f);
 }
 
 TEST_F(Mirror, WithNoMapChosenItShowsUndirectedLight) {
@@ -340,12 +341,12 @@ TEST_F(Mirror, WithNoMapChosenItShowsUndirectedLight) {
   pack.mesh.parts[0].lightmap_page = 0;
   FrameOptions none;
   none.maps_per_element = 0;
-  EXPECT_NEAR(draw(pack, camera_at({0, 0, 1}), 64, 48, none).at(32, 24).x, 128 / kPi, 1e-3f);
+  EXPECT_NEAR(draw(pack, camera_to_mirror({0, 0, 1}), 64, 48, none).at(32, 24).x, 128 / kPi, 1e-3f);
 }
 
 TEST_F(Mirror, OnePixelAnd4096) {
   const Pack pack = mirror_pack();
-  const Camera camera = camera_at({0, 0, 1});
+  const Camera camera = camera_to_mirror({0, 0, 1});
   EXPECT_TRUE(draw(pack, camera, 1, 1).finite());
   const Picture wide = draw(pack, camera, 4096, 4);
   EXPECT_TRUE(wide.finite());
@@ -354,13 +355,13 @@ TEST_F(Mirror, OnePixelAnd4096) {
 
 TEST_F(Mirror, SameFrameTwice) {
   const Pack pack = mirror_pack();
-  const Camera camera = camera_at({0.4f, 0.1f, 1.3f});
+  const Camera camera = camera_to_mirror({0.4f, 0.1f, 1.3f});
   EXPECT_EQ(draw(pack, camera, 100, 70).rgb, draw(pack, camera, 100, 70).rgb);
 }
 
 TEST_F(Mirror, Orthographic) {
   const Pack pack = mirror_pack();
-  Camera camera = camera_at({0, 0, 2});
+  Camera camera = camera_to_mirror({0, 0, 2});
   camera.vertical_fov_rad = 0;
   camera.half_height = 1;
   const Picture p = draw(pack, camera, 100, 100);

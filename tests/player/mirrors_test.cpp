@@ -8,7 +8,7 @@ namespace oriel {
 namespace {
 using namespace testing;
 
-const Vec3 kSky(10, 20, 30);
+const Vec3 kMirroredSky(10, 20, 30);
 
 // Materials 0: a mirror of half the light; 1 … 3: red, green and blue lamps.
 Pack empty_pack() {
@@ -20,7 +20,7 @@ Pack empty_pack() {
   pack.materials[1].emission = {8, 0, 0};
   pack.materials[2].emission = {0, 8, 0};
   pack.materials[3].emission = {0, 0, 8};
-  pack.sky = kSky;
+  pack.sky = kMirroredSky;
   return pack;
 }
 
@@ -63,7 +63,7 @@ TEST_F(Mirrors, FacingMirrorsShowEachOtherToTheLastOrder) {
         const PixelRay ray = pixel_ray(camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 96, 72);
         const int k = bounces(ray.origin, ray.direction);
         if (k < 0) continue;
-        const Vec3 expected = k > orders ? Vec3(0) : kSky * std::pow(0.5f, static_cast<float>(k));
+        const Vec3 expected = k > orders ? Vec3(0) : kMirroredSky * std::pow(0.5f, static_cast<float>(k));
         ASSERT_LT(glm::length(p.at(x, y) - expected), 1e-3f)
             << orders << " orders, " << k << " mirrors, at " << x << ", " << y;
         ++met[static_cast<std::size_t>(std::min(k, 7))];
@@ -173,7 +173,7 @@ TEST_F(Mirrors, DrawWhatTheirSetsHold) {
     return draw(pack, look_at({0, eye_y, 2}, {0, 0, 0}, 0.3f), 32, 32).at(16, 16);
   };
   EXPECT_LT(glm::length(seen(3) - Vec3(4, 0, 0)), 1e-3f);
-  EXPECT_LT(glm::length(seen(1) - 0.5f * kSky), 1e-3f);
+  EXPECT_LT(glm::length(seen(1) - 0.5f * kMirroredSky), 1e-3f);
   EXPECT_LT(glm::length(seen(1, 1) - Vec3(4, 0, 0)), 1e-3f) << "nobody asked for eyes up there";
   pack.reflected_sets.made_for = {};
   EXPECT_LT(glm::length(draw(pack, look_at({0, 0, 2}, {0, 0, 0}, 0.3f), 32, 32).at(16, 16) - Vec3(4, 0, 0)), 1e-3f)

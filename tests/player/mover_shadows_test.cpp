@@ -163,21 +163,21 @@ TEST_F(FlatShadows, OfManyLooksByMapsAreAsRays) {
   const Pack pack = lamp_scene();
   Camera camera = above_floor(1.4f, 0.1f);
   camera.vertical_fov_rad = 1;
-  constexpr int kSide = 33, kLooks = 64;
+  constexpr int kShadowSide = 33, kLooks = 64;
   FrameOptions options;
   options.light_points = 4;
-  std::vector<double> taken(kSide), first(kSide);
+  std::vector<double> taken(kShadowSide), first(kShadowSide);
   for (options.look = 0; options.look < kLooks; ++options.look) {
-    const Picture picture = draw(pack, camera, kSide, kSide, options);
-    for (int x = 0; x < kSide; ++x) {
-      const double now = 100 - double{picture.at(x, kSide / 2).g * kPi};
+    const Picture picture = draw(pack, camera, kShadowSide, kShadowSide, options);
+    for (int x = 0; x < kShadowSide; ++x) {
+      const double now = 100 - double{picture.at(x, kShadowSide / 2).g * kPi};
       taken[static_cast<std::size_t>(x)] += now / kLooks;
       if (options.look == 0) first[static_cast<std::size_t>(x)] = now;
     }
   }
   double one = 0, many = 0, open = 0;
-  for (int x = 0; x < kSide; ++x) {
-    const double at = 1.4 + std::tan(0.5) * (2 * (x + 0.5) / kSide - 1);
+  for (int x = 0; x < kShadowSide; ++x) {
+    const double at = 1.4 + std::tan(0.5) * (2 * (x + 0.5) / kShadowSide - 1);
     const Lit lit = by_rays(pack, std::vector{pack.movers[0].rest}, {at, -2, 0.1});
     const auto i = static_cast<std::size_t>(x);
     one += (first[i] - lit.taken) * (first[i] - lit.taken), many += (taken[i] - lit.taken) * (taken[i] - lit.taken);

@@ -31,7 +31,7 @@ Pack mapped_quad(const Vec3& irradiance, const Vec3& d, const std::array<std::ui
   return pack;
 }
 
-Camera camera_at(const Vec3& eye) {
+Camera camera_over(const Vec3& eye) {
   Camera camera;
   camera.eye = eye;
   camera.forward = -eye;
@@ -40,7 +40,7 @@ Camera camera_at(const Vec3& eye) {
 
 constexpr float kRounding = 1e-5f;  // of some 80 cd/m², in seven digits
 
-void expect_light(const Vec3& found, const Vec3& expected, float relative) {
+void expect_relief(const Vec3& found, const Vec3& expected, float relative) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], relative * std::abs(expected[c]) + kRounding) << c;
 }
 
@@ -56,7 +56,7 @@ TEST_F(NormalMaps, DiffuseFollowsTheModel) {
           pack.materials[0].normal_scale = scale;
           const float ratio = directional_ratio(d, normal_of(rgb, scale), kFacing);
           for (const Vec3& eye : {Vec3(0, 0, 2), Vec3(1.5f, -0.5f, 1)}) {
-            const Vec3 found = draw(pack, camera_at(eye), 8, 8).at(4, 4);
+            const Vec3 found = draw(pack, camera_over(eye), 8, 8).at(4, 4);
             const Vec3 whole = Vec3(256, 128, 64) / kPi;
             EXPECT_LT(glm::length(found / whole - ratio), 1e-3f * (1 + ratio)) << ratio;  // d in halves
           }
@@ -74,9 +74,9 @@ TEST_F(NormalMaps, FlatMapChangesNothing) {
   Pack plain = pack;
   plain.materials[0].normal_texture = -1;
   const float ev = std::log2(256 / kPi / 1.2f);
-  draw(pack, camera_at({0, 0, 2}), 32, 32);
+  draw(pack, camera_over({0, 0, 2}), 32, 32);
   const auto mapped = renderer_->read_display(ev, ToneCurve::kNone);
-  draw(plain, camera_at({0, 0, 2}), 32, 32);
+  draw(plain, camera_over({0, 0, 2}), 32, 32);
   const auto flat = renderer_->read_display(ev, ToneCurve::kNone);
   ASSERT_TRUE(mapped && flat);
   for (std::size_t i = 0; i < flat->size(); ++i) EXPECT_NEAR((*mapped)[i], (*flat)[i], 1) << i;
@@ -85,7 +85,7 @@ TEST_F(NormalMaps, FlatMapChangesNothing) {
 TEST_F(NormalMaps, WithoutDirectionsOnlyReflectionsTilt) {
   Pack pack = mapped_quad(Vec3(256), Vec3(0), {218, 128, 218}, false);
   pack.lightmaps[0].direction.clear();
-  expect_light(draw(pack, camera_at({0, 0, 2}), 8, 8).at(4, 4), Vec3(256) / kPi, 1e-3f);
+  expect_relief(draw(pack, camera_over({0, 0, 2}), 8, 8).at(4, 4), Vec3(256) / kPi, 1e-3f);
   FresnelMap map;
   for (int i = 0; i < 5; ++i) map.table.emplace_back(1 - static_cast<float>(i) / 4);
   pack.fresnel_maps.push_back(map);
@@ -93,16 +93,16 @@ TEST_F(NormalMaps, WithoutDirectionsOnlyReflectionsTilt) {
   pack.materials[0].base_color = Vec3(0);
   for (const Vec3& eye : {Vec3(0, 0, 2), Vec3(1, 0, 1), Vec3(-2, 0, 0.5f)}) {
     const float cosine = std::max(0.0f, glm::dot(normal_of({218, 128, 218}), glm::normalize(eye)));
-    expect_light(draw(pack, camera_at(eye), 65, 65).at(32, 32), Vec3((1 - std::sqrt(cosine)) * 256 / kPi), 0.01f);
+    expect_relief(draw(pack, camera_over(eye), 65, 65).at(32, 32), Vec3((1 - std::sqrt(cosine)) * 256 / kPi), 0.01f);
   }
 }
 
 TEST_F(NormalMaps, SeeThroughSurfacesToo) {
   Pack pack = mapped_quad(Vec3(256), Vec3(0.6f, 0, 0.8f), {200, 128, 220}, false);
-  const Vec3 whole = draw(pack, camera_at({0, 0, 2}), 8, 8).at(4, 4);
+  const Vec3 whole = draw(pack, camera_over({0, 0, 2}), 8, 8).at(4, 4);
   pack.materials[0].alpha_mode = AlphaMode::kBlend;
   pack.materials[0].alpha = 0.25f;
-  expect_light(draw(pack, camera_at({0, 0, 2}), 8, 8).at(4, 4), 0.25f * whole, 1e-3f);
+  expect_relief(draw(pack, camera_over({0, 0, 2}), 8, 8).at(4, 4), 0.25f * whole, 1e-3f);
 }
 
 TEST_F(NormalMaps, ExtremesStayFinite) {
@@ -111,7 +111,7 @@ TEST_F(NormalMaps, ExtremesStayFinite) {
       Pack pack = mapped_quad(Vec3(256), Vec3(0, 0, -1), rgb, false);
       pack.materials[0].normal_scale = scale;
       pack.mesh.normals[0] = Vec3(0);
-      EXPECT_TRUE(draw(pack, camera_at({0, 0, 2}), 8, 8).finite()) << scale;
+      EXPECT_TRUE(draw(pack, camera_over({0, 0, 2}), 8, 8).finite()) << scale;
     }
 }
 

@@ -55,7 +55,7 @@ class PaneGlowTest : public FrameTest {
  protected:
   // In the middle of a picture of what lies around p.
   Vec3 glow(const Pack& pack, const Vec3& eye, const Vec3& p, const FrameOptions& options = {}) {
-    return draw(pack, camera_at(eye, p, 0.01f), 9, 9, options).at(4, 4);
+    return draw(pack, glass_camera(eye, p, 0.01f), 9, 9, options).at(4, 4);
   }
 };
 

@@ -10,14 +10,14 @@ namespace oriel {
 namespace {
 using namespace testing;
 
-const Vec3 kGrey(10, 10, 10);
+const Vec3 kReflectedGrey(10, 10, 10);
 
-Camera camera_at(const Vec3& eye, const Vec3& target = Vec3(0)) {
+Camera camera_before(const Vec3& eye, const Vec3& target = Vec3(0)) {
   return look_at(eye, target, 1.2f);
 }
 
 // The mirror of add_mirror, all of it kGrey at z = 3, and materials 1 … 3 that shine red, green, blue.
-Pack mirror_pack() {
+Pack pack_of_mirror() {
   Pack pack;
   pack.materials.resize(4);
   pack.materials[0].metallic = 1;
@@ -27,13 +27,13 @@ Pack mirror_pack() {
   pack.materials[1].emission = {8, 0, 0};
   pack.materials[2].emission = {0, 8, 0};
   pack.materials[3].emission = {0, 0, 8};
-  add_mirror(pack, {{0, 0, -1}}, 16, [](const Vec2&, const Vec3&) { return Seen{kGrey, 3}; });
+  add_mirror(pack, {{0, 0, -1}}, 16, [](const Vec2&, const Vec3&) { return Seen{kReflectedGrey, 3}; });
   return pack;
 }
 
 // Maps that are black, a lobe that is a cosine, and a square lamp over the mirror's middle that they leave out.
 Pack lamp_pack() {
-  Pack pack = mirror_pack();
+  Pack pack = pack_of_mirror();
   BrdfKernel kernel;
   kernel.alpha = 1;
   kernel.size = kernel.slice_size = 1;
@@ -62,14 +62,14 @@ class Reflected : public FrameTest {};
 
 // Red at the left and green at the right of the eye, behind it; blue behind the mirror, where it must be clipped.
 TEST_F(Reflected, GeometryIsMirroredAndClippedAtThePlane) {
-  Pack pack = mirror_pack();
+  Pack pack = pack_of_mirror();
   add_quad(pack, {0, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 1, -1);
   add_quad(pack, {8, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 2, -1);
   add_quad(pack, {2, -2, -0.5f}, {-4, 0, 0}, {0, 4, 0}, 3, -1);
   FrameOptions options;
   options.reflections = Reflections::kGeometry;
   options.show = Show::kM;
-  const Picture p = draw(pack, camera_at({0, 0, 2}), 64, 48, options);
+  const Picture p = draw(pack, camera_before({0, 0, 2}), 64, 48, options);
   EXPECT_NEAR(glm::length(p.at(24, 24) - Vec3(8, 0, 0)), 0, 1e-4f);
   EXPECT_NEAR(glm::length(p.at(40, 24) - Vec3(0, 8, 0)), 0, 1e-4f);
   EXPECT_TRUE(p.finite());
@@ -90,14 +90,14 @@ TEST_F(Reflected, GeometryLeavesOutTheListedEmittersAndShowsPanes) {
   FrameOptions options;
   options.reflections = Reflections::kGeometry;
   options.show = Show::kM;
-  const Picture p = draw(pack, camera_at({0, 0, 2}), 64, 48, options);
+  const Picture p = draw(pack, camera_before({0, 0, 2}), 64, 48, options);
   EXPECT_NEAR(glm::length(p.at(24, 32)), 0, 1e-4f);
   EXPECT_NEAR(glm::length(p.at(40, 32) - Vec3(8, 0, 0)), 0, 1e-4f);
   EXPECT_NEAR(glm::length(p.at(40, 16) - Vec3(6, 1, 0)), 0, 1e-4f);
 }
 
 TEST(NearPlane, CutsThereAndKeepsTheRest) {
-  const View view = make_view(camera_at({0, 0, 0}, {0, 0, -1}), 64, 48, {{-9, -9, -9}, {9, 9, 9}});
+  const View view = make_view(camera_before({0, 0, 0}, {0, 0, -1}), 64, 48, {{-9, -9, -9}, {9, 9, 9}});
   const Vec4 plane = glm::normalize(Vec4(0.3f, 0.1f, -1, -2));
   const Mat4 cut = with_near_plane(view.clip_from_pack, plane);
   for (const Vec3& p : {Vec3(0, 0, -2.5f), Vec3(0.5f, 0, -1.9f), Vec3(0, 0.4f, -2.1f), Vec3(-0.3f, 0.2f, -6)}) {
@@ -111,7 +111,7 @@ TEST(NearPlane, CutsThereAndKeepsTheRest) {
 
 // Of a mirror behind a wall only what the wall leaves open costs anything, and it looks the same.
 TEST_F(Reflected, OnlyWhatIsVisibleIsReflected) {
-  Pack pack = mirror_pack();
+  Pack pack = pack_of_mirror();
   pack.radiance_maps.clear();
   pack.reflectors.clear();
   add_mirror(pack, {{0, 0, -1}}, 64, [](const Vec2& at, const Vec3&) {
@@ -119,7 +119,7 @@ TEST_F(Reflected, OnlyWhatIsVisibleIsReflected) {
   });
   FrameOptions options;
   options.show = Show::kMKR;
-  const Camera camera = camera_at({0, 0, 2});
+  const Camera camera = camera_before({0, 0, 2});
   const Picture open = draw(pack, camera, 128, 96, options);
   add_quad(pack, {-2, -2, 0.5f}, {2.6f, 0, 0}, {0, 4, 0}, 3, -1);  // leaves less than the right quarter
   const Picture behind = draw(pack, camera, 128, 96, options);
@@ -145,7 +145,7 @@ TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
   // Of a square of half side a at height h, over its centre: (2/π) · 2 · x/√(1+x²) atan(x/√(1+x²)), x = a / h.
   const float x = 0.5f / std::sqrt(1.25f);
   const float expected = 4 / kPi * x * std::atan(x);
-  const Camera camera = camera_at({0, 0, 1});
+  const Camera camera = camera_before({0, 0, 1});
   FrameOptions options;
   options.show = Show::kMK;
   const auto middle = [&] { return draw(pack, camera, 65, 49, options).at(32, 24); };
@@ -164,7 +164,7 @@ TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
 // As many lamps as a reflector may list shine like the one that they are pieces of.
 TEST_F(Reflected, EmittersShineToTheLastThatIsListed) {
   Pack pack = lamp_pack();
-  const Camera camera = camera_at({0.3f, 0.1f, 1});
+  const Camera camera = camera_before({0.3f, 0.1f, 1});
   FrameOptions options;
   options.show = Show::kMK;
   const Picture one = draw(pack, camera, 65, 49, options);
@@ -206,7 +206,7 @@ TEST_F(Reflected, EmittersThroughThePlaneAreCutThere) {
       {{1, 0, -0.5f}, {1, 1, -0.5f}, {1, 1, -1.5f}, {1, 0, -1.5f}}};  // all
   for (const std::vector<Vec3>& corners : emitters) {
     pack.emitters[0].corners = corners;
-    const Vec3 found = draw(pack, camera_at({0, 0, 1}), 65, 49, options).at(32, 24);
+    const Vec3 found = draw(pack, camera_before({0, 0, 1}), 65, 49, options).at(32, 24);
     EXPECT_NEAR(found.x, 100 * std::fabs(reflected_polygon(LobeFit{}, corners)), 0.02f) << corners.size();
   }
 }
@@ -225,7 +225,7 @@ TEST_F(Reflected, EmittersAreSeenByTheNodesAroundAPixel) {
   reflector.visibility.assign(24, 255);
   FrameOptions options;
   options.show = Show::kMK;
-  const Camera camera = camera_at({0.2f, 0.1f, 1.5f}, {0.2f, 0.1f, 0});
+  const Camera camera = camera_before({0.2f, 0.1f, 1.5f}, {0.2f, 0.1f, 0});
   const Picture all = draw(pack, camera, 65, 49, options);
   reflector.visibility = {0, 0, 0,   0, 255, 0, 0,  0, 0, 0, 0, 0,     // the first lamp
                           0, 0, 102, 0, 0,   0, 51, 0, 0, 0, 0, 255};  // the second
@@ -264,7 +264,7 @@ TEST_F(Reflected, GlintsHaveTheirLightBetweenPixelsToo) {
   pack.emitters[0].radiance = Vec3(kRadiance);
   FrameOptions options;
   options.show = Show::kMK;
-  const Camera camera = camera_at({0.3f, 0, 1});
+  const Camera camera = camera_before({0.3f, 0, 1});
   const View view = make_view(camera, 65, 49, {});
   int most = 0;
   float mean = 0;
@@ -301,7 +301,7 @@ TEST_F(Reflected, EmittersAreSharpWithoutBlur) {
   FrameOptions options;
   options.show = Show::kMK;
   options.blur = Blur::kOff;
-  const Camera camera = camera_at({0.3f, 0, 1});
+  const Camera camera = camera_before({0.3f, 0, 1});
   const View view = make_view(camera, 65, 49, {});
   const auto check = [&](float bright) {
     const Picture p = draw(pack, camera, 65, 49, options);
@@ -332,7 +332,7 @@ TEST_F(Reflected, EmittersAreSharpWithoutBlur) {
 // From a coin to a kilometre, from straight before to edge-on, in every mode: no number that is none.
 TEST_F(Reflected, EverySizeEveryAngleEveryMode) {
   for (const float scale : {1e-3f, 1.0f, 1e3f}) {
-    Pack pack = mirror_pack();
+    Pack pack = pack_of_mirror();
     for (Vec3& p : pack.mesh.positions) p *= scale;
     pack.reflectors[0].lower *= scale;
     pack.reflectors[0].upper *= scale;
@@ -347,18 +347,19 @@ TEST_F(Reflected, EverySizeEveryAngleEveryMode) {
         FrameOptions options;
         options.reflections = mode;
         options.show = Show::kM;
-        const Picture p = draw(pack, camera_at(eye * scale, {0.01f * scale, 0, 0}), 48, 32, options);
+        const Picture p = draw(pack, camera_before(eye * scale, {0.01f * scale, 0, 0}), 48, 32, options);
         EXPECT_TRUE(p.finite()) << scale << " " << eye.x << " " << eye.z;
       }
     FrameOptions march;
     march.show = Show::kM;
-    EXPECT_NEAR(draw(pack, camera_at(Vec3(0, 0, 1) * scale), 48, 32, march).at(24, 16).x, kGrey.x, 1e-3f) << scale;
+    EXPECT_NEAR(draw(pack, camera_before(Vec3(0, 0, 1) * scale), 48, 32, march).at(24, 16).x, kReflectedGrey.x, 1e-3f)
+        << scale;
   }
 }
 
 // Blur off is M; a constant kernel blurs what touches the mirror as much as what is far away.
 TEST_F(Reflected, BlurModes) {
-  Pack pack = mirror_pack();
+  Pack pack = pack_of_mirror();
   RadianceMap& map = pack.radiance_maps[0];
   for (std::uint32_t i = 0; i < map.width * map.height; ++i) {
     map.radiance[i] = i % map.width < map.width / 2 ? Vec3(40) : Vec3(0);
@@ -374,7 +375,7 @@ TEST_F(Reflected, BlurModes) {
     FrameOptions options;
     options.show = Show::kMK;
     options.blur = blur;
-    const Picture p = draw(pack, camera_at({0, 0, 1}), 160, 120, options);
+    const Picture p = draw(pack, camera_before({0, 0, 1}), 160, 120, options);
     int between = 0;
     for (int x = 40; x < 120; ++x) between += p.at(x, y).x > 4 && p.at(x, y).x < 36;
     return between;

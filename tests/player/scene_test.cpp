@@ -295,7 +295,7 @@ TEST(CheckDrawable, KernelsAndReflectancesFitTheDevice) {
     return status ? "" : status.error().text();
   };
   EXPECT_EQ(found([](Pack&) {}), "");
-  const auto has = [](const std::string& text) { return testing::HasSubstr(text); };
+  const auto has = [](const std::string& text) { return ::testing::HasSubstr(text); };
   EXPECT_THAT(found([](Pack& p) { p.kernels[0].slice_size = 5; }), has("kernel 0: found 5 texels, expected at most 4"));
   EXPECT_THAT(found([](Pack& p) { p.kernels[0].slices.resize(5, p.kernels[0].slices[0]); }),
               has("kernel 0: found 5 slices, expected at most 4"));

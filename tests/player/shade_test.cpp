@@ -9,11 +9,11 @@ using namespace testing;
 
 constexpr float kLux = 100;  // of the floor
 constexpr float kCeilingLux = 200, kAlbedo = 0.5f;
-const float kHalf = std::sqrt(0.5f);
-const MoverPose kLevel{{0, 0, 0}, {-kHalf, 0, 0, kHalf}};  // the square of 2 m faces up
+const float kHalfTurn = std::sqrt(0.5f);
+const MoverPose kFaceUp{{0, 0, 0}, {-kHalfTurn, 0, 0, kHalfTurn}};  // the square of 2 m faces up
 
 MoverPose at(const Vec3& position) {
-  return {position, kLevel.rotation};
+  return {position, kFaceUp.rotation};
 }
 
 // The floor at y = -2, 8 by 8 metres, and the mover above it.
@@ -23,7 +23,7 @@ Pack floor_scene() {
   pack.materials[1].base_color = Vec3(0);
   pack.lightmaps.push_back(flat_page(Vec3(kLux)));
   add_quad(pack, {-4, -2, 4}, {8, 0, 0}, {0, 0, -8}, 1, 0);
-  pack.movers[0].rest = kLevel;
+  pack.movers[0].rest = kFaceUp;
   return pack;
 }
 
@@ -56,7 +56,7 @@ class ShadeTest : public FrameTest {
     options.show = Show::kD;
     options.shade.work = work, options.shade.lights = lights;
     options.shade.every_pixel = true;
-    options.poses = {kLevel};
+    options.poses = {kFaceUp};
     return options;
   }
   // Illuminance of the floor there; its albedo is 1 for this.

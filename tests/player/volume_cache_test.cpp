@@ -7,7 +7,7 @@ namespace oriel {
 namespace {
 using namespace testing;
 
-FrameOptions in_passes() {
+FrameOptions in_cached_passes() {
   FrameOptions options;
   options.mover_lights = MoverLights::kHarmonics;
   options.shade.lights = 0;
@@ -45,7 +45,7 @@ class VolumesKept : public FrameTest {
 
 TEST_F(VolumesKept, AreBuiltAnewForWhatMoved) {
   const auto scene = std::move(*GpuScene::create(kept_scene(), device_));
-  FrameOptions options = in_passes();
+  FrameOptions options = in_cached_passes();
   const MultiPassStats first = next(*scene, options);
   EXPECT_EQ(built(first), (Built{6, 0, 0, 0})) << "three objects, two lamps";
   EXPECT_GT(first.volume_bytes, 0u);
@@ -68,7 +68,7 @@ TEST_F(VolumesKept, AreBuiltAnewForAMirrorThatMoved) {
   pack.reflectors.push_back(reflector);
   pack.reflectors[0].upper = Vec2(1);
   const auto scene = std::move(*GpuScene::create(pack, device_));
-  const FrameOptions options = in_passes();
+  const FrameOptions options = in_cached_passes();
   next(*scene, options);  // leaves a frame to draw into
   FrameStats stats;
   const View view = make_view(above_floor(0, 0), 32, 24, scene->bounds());
@@ -98,7 +98,7 @@ TEST_F(VolumesKept, AreWhereTheMoverIs) {
   pack.light_field.lights.resize(1);
   const auto lit = [&](double x) {
     pack.movers[0].rest.position.x = x;
-    return draw(pack, above_floor(0.5f, 0), 9, 9, in_passes()).at(4, 4).x;
+    return draw(pack, above_floor(0.5f, 0), 9, 9, in_cached_passes()).at(4, 4).x;
   };
   EXPECT_EQ(lit(0), 0);
   EXPECT_GT(lit(3), 1);
@@ -110,10 +110,10 @@ TEST_F(VolumesKept, WithoutLampsTheFrameIsTheSame) {
   pack.lightmaps[0] = flat_page(Vec3(70));
   pack.light_field.lights.clear();
   for (LightProbe& probe : pack.light_field.probes) probe.bright = 0;
-  FrameOptions off = in_passes();
+  FrameOptions off = in_cached_passes();
   off.multi_pass.on = false;
   const Picture without = draw(pack, above_floor(0, 0), 33, 25, off),
-                with = draw(pack, above_floor(0, 0), 33, 25, in_passes());
+                with = draw(pack, above_floor(0, 0), 33, 25, in_cached_passes());
   EXPECT_EQ(without.rgb, with.rgb);
   EXPECT_EQ(without.stats.passes.images, 0u);
   EXPECT_EQ(with.stats.passes.light_passes, 0u);
@@ -126,7 +126,7 @@ TEST_F(VolumesKept, OddScenesAreDrawn) {
   pack.light_field.lights[1].position = {1.5f, -1, 0.5f};  // on the sheet
   pack.mesh.indices.insert(pack.mesh.indices.end(), {0, 0, 1, 0, 1, 1});
   pack.mesh.parts.back().index_count += 6;
-  EXPECT_TRUE(draw(pack, above_floor(0.2f, 0.2f), 33, 25, in_passes()).finite());
+  EXPECT_TRUE(draw(pack, above_floor(0.2f, 0.2f), 33, 25, in_cached_passes()).finite());
 }
 
 // More ways than a frame draws: those by fewest mirrors are drawn, and the rest is told.

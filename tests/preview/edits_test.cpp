@@ -2,14 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "formats/core/file.h"
 #include "preview/frame/background_bake.h"
 #include "preview/frame/scene_edits.h"
 #include "scenes/generators.h"
 #include "scenes/kit/glb_writer.h"
 #include "tests/bake/import/gltf_maker.h"
+#include "tests/support/waiting.h"
 
 namespace oriel {
 namespace {
@@ -149,12 +148,8 @@ TEST(SceneEdits, LightsOfOneNameStayWhereTheyAre) {
 }
 
 bool wait_for(BackgroundBake& bake) {
-  for (int i = 0; i < 500; ++i) {
-    if (bake.ended_well()) return true;
-    if (!bake.runs()) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
+  bool well = false;
+  return testing::wait_until([&] { return (well = bake.ended_well()) || !bake.runs(); }) && well;
 }
 
 TEST(BackgroundBakes, TellHowFarTheyAreAndWhatFailed) {

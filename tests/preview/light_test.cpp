@@ -13,7 +13,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kLitWidth = 64, kLitHeight = 48;
 
 // A room with a lamp, a box and a ball.
 Scene room(const Vec3& wall = Vec3(0.6f)) {
@@ -43,7 +43,7 @@ class PreviewLight : public ::testing::Test {
   }
 
   FloatImage draw(const PreviewOptions& options, std::uint32_t passes, const Camera& camera = kCamera) {
-    EXPECT_TRUE(renderer_.look(camera, kWidth, kHeight));
+    EXPECT_TRUE(renderer_.look(camera, kLitWidth, kLitHeight));
     for (std::uint32_t i = 0; i < passes; ++i) EXPECT_TRUE(renderer_.pass(options, context_));
     return renderer_.read_mean();
   }
@@ -52,7 +52,8 @@ class PreviewLight : public ::testing::Test {
     Context context;
     context.seed = seed;
     return *render_reference(scene_->transport(), camera,
-                             {.width = kWidth, .height = kHeight, .samples = samples, .antialias = false}, context);
+                             {.width = kLitWidth, .height = kLitHeight, .samples = samples, .antialias = false},
+                             context);
   }
 
   std::unique_ptr<gpu::HeadlessContext> gl_;
@@ -63,7 +64,7 @@ class PreviewLight : public ::testing::Test {
 
 constexpr PreviewOptions kDirectOnly{.bounce = false, .emission = false, .traced = false, .antialias = false};
 
-double mean_of(const FloatImage& image) {
+double mean_pixel(const FloatImage& image) {
   double sum = 0;
   for (const float v : image.pixels) sum += v;
   return sum / static_cast<double>(image.pixels.size());
@@ -81,7 +82,7 @@ TEST_F(PreviewLight, DirectLightIsThatOfTheReference) {
     PreviewOptions options = kDirectOnly;
     options.shadows = shadows;
     const FloatImage direct = draw(options, 64);
-    EXPECT_NEAR(mean_of(direct), mean_of(truth.direct), 0.004 * mean_of(truth.direct));
+    EXPECT_NEAR(mean_pixel(direct), mean_pixel(truth.direct), 0.004 * mean_pixel(truth.direct));
     EXPECT_LT(relative_error(direct, truth.direct, truth.diffuse_noise)->net(), 0.03);
   }
   PreviewOptions without = kDirectOnly;  // the check sees that something is wrong
@@ -103,7 +104,7 @@ TEST_F(PreviewLight, PointSpotAndSunAreTheirClosedForms) {
     lit.lights = {of};
     take(lit);
     const FloatImage image = draw(kDirectOnly, 4, look_at({0, 3, 0.001f}, {0, 0, 0}, 0.02f));
-    const std::size_t i = std::size_t{3} * (kHeight / 2 * kWidth + kWidth / 2);
+    const std::size_t i = std::size_t{3} * (kLitHeight / 2 * kLitWidth + kLitWidth / 2);
     return Vec3(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
   };
   const Vec3 point = 0.5f / kPi * light.intensity / 4.0f;
@@ -124,7 +125,7 @@ TEST_F(PreviewLight, AnEvenSkyIsItsClosedForm) {
   Scene scene = parts.finish();
   scene.sky = Vec3(3);
   take(std::move(scene));
-  EXPECT_NEAR(mean_of(draw(kDirectOnly, 64, look_at({0, 2, 0.001f}, {0, 0, 0}, 0.5f))), 1.5, 0.02);
+  EXPECT_NEAR(mean_pixel(draw(kDirectOnly, 64, look_at({0, 2, 0.001f}, {0, 0, 0}, 0.5f))), 1.5, 0.02);
 }
 
 // Near disks are not surfaces. More of them come nearer, up to some hundred.
@@ -134,7 +135,7 @@ TEST_F(PreviewLight, ReflectedLightComesNearerWithMoreElements) {
   options.bounce = true;
   take(room());
   options.elements = 0;
-  EXPECT_EQ(mean_of(draw(options, 1)), 0);
+  EXPECT_EQ(mean_pixel(draw(options, 1)), 0);
   const FloatImage truth = reference(64).indirect;
   std::vector<double> errors;
   for (const std::uint32_t elements : {4u, 32u, 256u, 512u}) {
@@ -156,8 +157,8 @@ TEST_F(PreviewLight, ElementsHaveAllBounces) {
     take(room(Vec3(wall)));
     const FloatImage truth = reference(128).indirect, shown = draw(kBouncesOnly, 64);
     std::printf("walls of %.2f: mean of 512 elements %+.3f, relative RMSE %.3f\n", double{wall},
-                mean_of(shown) / mean_of(truth) - 1, apart(shown, truth));
-    EXPECT_NEAR(mean_of(shown) / mean_of(truth), 1, 0.05);
+                mean_pixel(shown) / mean_pixel(truth) - 1, apart(shown, truth));
+    EXPECT_NEAR(mean_pixel(shown) / mean_pixel(truth), 1, 0.05);
   }
 }
 
@@ -169,24 +170,24 @@ TEST_F(PreviewLight, ElementsShineIntoTheirRoomAlone) {
   parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(100)), {-0.4f, 2.45f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f});
   take(parts.finish());
   const Camera inside = look_at({4, 1.4f, 1.8f}, {4, 0.8f, -1}, 1.1f);
-  EXPECT_EQ(mean_of(draw(kBouncesOnly, 8, inside)), 0);
+  EXPECT_EQ(mean_pixel(draw(kBouncesOnly, 8, inside)), 0);
   const PreviewOptions shared{.shadows = ShadowMethod::kRays, .emission = false, .traced = false, .shared = true};
-  EXPECT_EQ(mean_of(draw(shared, 1, inside)), 0);
-  EXPECT_GT(mean_of(draw(shared, 1)), 0);
+  EXPECT_EQ(mean_pixel(draw(shared, 1, inside)), 0);
+  EXPECT_GT(mean_pixel(draw(shared, 1)), 0);
   PreviewOptions unshadowed = kBouncesOnly;
   unshadowed.shadows = ShadowMethod::kNone;
-  EXPECT_GT(mean_of(draw(unshadowed, 1, inside)), 0);
+  EXPECT_GT(mean_pixel(draw(unshadowed, 1, inside)), 0);
 }
 
 // Of the sun's light nearly all lands outside. What comes in by the window is found all the same, with any seed.
 TEST_F(PreviewLight, ARoomInTheSunIsLitWithAnySeed) {
   take(test::sunlit_room(Vec3(0.6f)));
   const Camera inside = look_at({1.5f, 1.4f, 1.5f}, {-1, 0.8f, -1}, 1.1f);
-  const double truth = mean_of(reference(512, 7, inside).indirect);
+  const double truth = mean_pixel(reference(512, 7, inside).indirect);
   std::printf("a room in the sun, six seeds: reflected light over that of paths");
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     context_.seed = seed;
-    const double ratio = mean_of(draw(kBouncesOnly, 16, inside)) / truth;
+    const double ratio = mean_pixel(draw(kBouncesOnly, 16, inside)) / truth;
     std::printf(" %.3f", ratio);
     EXPECT_NEAR(ratio, 1, 0.2) << seed;
   }
@@ -196,7 +197,7 @@ TEST_F(PreviewLight, ARoomInTheSunIsLitWithAnySeed) {
 TEST_F(PreviewLight, PathsAreTheReferenceToTheBit) {
   take(room());
   PathFrame paths(2);
-  const ReferenceOptions frame{.width = kWidth, .height = kHeight, .samples = 32, .antialias = false};
+  const ReferenceOptions frame{.width = kLitWidth, .height = kLitHeight, .samples = 32, .antialias = false};
   paths.hold(true);
   paths.start({scene_, kCamera, frame, 7});
   EXPECT_FALSE(paths.wait(0.05));
@@ -219,24 +220,24 @@ TEST_F(PreviewLight, TheConvergedPreviewIsTheReferenceWithinBothNoises) {
   take(room());
   const FloatImage passes = draw({.antialias = false}, 4);
   PathFrame paths(2);
-  paths.start({scene_, kCamera, {.width = kWidth, .height = kHeight, .samples = 128, .antialias = false}, 11});
+  paths.start({scene_, kCamera, {.width = kLitWidth, .height = kLitHeight, .samples = 128, .antialias = false}, 11});
   ASSERT_TRUE(paths.wait(120));
   const PathMean mean = *paths.newer(0);
   const FloatImage blended = *blend_paths(mean, passes, context_);
   const auto frame = renderer_.frame(&blended);
   ASSERT_TRUE(frame) << frame.error().text();
-  std::vector<float> shown(std::size_t{3} * kWidth * kHeight);
+  std::vector<float> shown(std::size_t{3} * kLitWidth * kLitHeight);
   (*frame)->framebuffer.bind();
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_FLOAT, shown.data());
+  glReadPixels(0, 0, kLitWidth, kLitHeight, GL_RGB, GL_FLOAT, shown.data());
   const ReferenceFrame truth = reference(128);
   double z2 = 0, count = 0;
-  for (std::size_t y = 0; y < kHeight; ++y)
-    for (std::size_t x = 0; x < 3 * kWidth; ++x) {
-      const std::size_t i = y * 3 * kWidth + x;
+  for (std::size_t y = 0; y < kLitHeight; ++y)
+    for (std::size_t x = 0; x < 3 * kLitWidth; ++x) {
+      const std::size_t i = y * 3 * kLitWidth + x;
       const double noise2 =
           double{mean.noise.pixels[i]} * mean.noise.pixels[i] + double{truth.noise.pixels[i]} * truth.noise.pixels[i];
-      const double off = double{shown[(kHeight - 1 - y) * 3 * kWidth + x]} - truth.total.pixels[i];
+      const double off = double{shown[(kLitHeight - 1 - y) * 3 * kLitWidth + x]} - truth.total.pixels[i];
       if (noise2 > 0) z2 += off * off / noise2, ++count;
     }
   std::printf("mean z² of the converged preview: %.3f over %.0f values\n", z2 / count, count);
@@ -255,7 +256,8 @@ TEST_F(PreviewLight, MorePathsAreNeverWorse) {
     std::printf("walls of %.1f: relative RMSE of passes %.4f; blended, and paths alone:", double{wall}, last);
     for (const std::uint32_t samples : {2u, 4u, 8u, 16u, 64u, 256u}) {
       PathFrame paths(2);
-      paths.start({scene_, kCamera, {.width = kWidth, .height = kHeight, .samples = samples, .antialias = false}, 3});
+      paths.start(
+          {scene_, kCamera, {.width = kLitWidth, .height = kLitHeight, .samples = samples, .antialias = false}, 3});
       ASSERT_TRUE(paths.wait(60));
       const PathMean mean = *paths.newer(0);
       const FloatImage blended = *blend_paths(mean, passes, context_);

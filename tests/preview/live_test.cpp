@@ -16,7 +16,7 @@ namespace oriel {
 namespace {
 
 // A triangle, lit by a lamp in front of it at a distance.
-std::string lamp_at(float distance) {
+std::string lamp_text(float distance) {
   test::Gltf g = test::triangle();
   g.material()["pbrMetallicRoughness"] = {{"metallicFactor", 0.0}};
   g.doc["meshes"][0]["primitives"][0]["material"] = 0;
@@ -37,7 +37,7 @@ std::size_t resident() {
   return held * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-double mean_of(const FloatImage& image) {
+double mean_value(const FloatImage& image) {
   double sum = 0;
   for (const float v : image.pixels) sum += v;
   return sum / static_cast<double>(image.pixels.size());
@@ -57,7 +57,7 @@ class Live : public ::testing::Test {
     EXPECT_TRUE(renderer_.take(scene));
     EXPECT_TRUE(renderer_.look(look_at(Vec3(0, 0, 2), Vec3(0), 0.5f), 64, 48));
     EXPECT_TRUE(renderer_.pass({.samples = 1, .antialias = false}, context_));
-    return mean_of(renderer_.read_mean());
+    return mean_value(renderer_.read_mean());
   }
 
   std::unique_ptr<gpu::HeadlessContext> gl_;
@@ -67,7 +67,7 @@ class Live : public ::testing::Test {
 };
 
 TEST_F(Live, AHundredEditsOfWhichTwentyAreBroken) {
-  const auto file = folder_.write("scene.gltf", lamp_at(1));
+  const auto file = folder_.write("scene.gltf", lamp_text(1));
   LiveScene live({.file = file, .import = {}}, 1, 1);
   auto news = live.wait_for_news(30);
   ASSERT_TRUE(news && news->scene);
@@ -77,7 +77,7 @@ TEST_F(Live, AHundredEditsOfWhichTwentyAreBroken) {
   int broken = 0;
   for (int i = 1; i <= 100; ++i) {
     const bool breaks = i % 5 == 0;
-    const std::string text = lamp_at(1 + 0.02f * static_cast<float>(i));
+    const std::string text = lamp_text(1 + 0.02f * static_cast<float>(i));
     const auto saved = std::chrono::steady_clock::now();
     folder_.write("scene.gltf", breaks ? text.substr(0, text.size() / 2) : text);
     news = live.wait_for_news(30);
@@ -194,7 +194,7 @@ TEST_F(Live, AnEditedFileIsSeenWithWhatStaysOfTheLast) {
 }
 
 TEST_F(Live, AFileThatGoesAndComesBack) {
-  const auto file = folder_.write("scene.gltf", lamp_at(1));
+  const auto file = folder_.write("scene.gltf", lamp_text(1));
   LiveScene live({.file = file, .import = {}}, 1, 1);
   auto news = live.wait_for_news(30);
   ASSERT_TRUE(news && news->scene);
@@ -202,7 +202,7 @@ TEST_F(Live, AFileThatGoesAndComesBack) {
   news = live.wait_for_news(30);
   ASSERT_TRUE(news && !news->scene);
   EXPECT_EQ(news->error.code, ErrorCode::kIo);
-  folder_.write("scene.gltf", lamp_at(2));
+  folder_.write("scene.gltf", lamp_text(2));
   news = live.wait_for_news(30);
   ASSERT_TRUE(news && news->scene);
   EXPECT_FALSE(live.wait_for_news(0.3));  // nothing is new

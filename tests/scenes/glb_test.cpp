@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "formats/core/json.h"
 #include "scenes/generators.h"
 #include "scenes/kit/glb_writer.h"
 #include "scenes/kit/shapes.h"
@@ -10,7 +9,7 @@ namespace oriel::sample {
 namespace {
 
 struct Parsed {
-  nlohmann::json json;
+  Json json;
   Bytes binary;
 };
 
@@ -24,7 +23,7 @@ Parsed parse(const Bytes& bytes) {
   EXPECT_EQ(json_size % 4, 0u);
   EXPECT_EQ(reader.get<std::uint32_t>(), 0x4E4F534Au);
   const auto text = reader.get_array<char>(json_size);
-  parsed.json = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
+  parsed.json = Json::parse({text.data(), text.size()}).value_or(Json());
   const auto binary_size = reader.get<std::uint32_t>();
   EXPECT_EQ(binary_size % 4, 0u);
   EXPECT_EQ(reader.get<std::uint32_t>(), 0x004E4942u);
@@ -34,9 +33,9 @@ Parsed parse(const Bytes& bytes) {
   return parsed;
 }
 
-std::vector<double> read_accessor(const Parsed& parsed, const nlohmann::json& accessor) {
+std::vector<double> read_accessor(const Parsed& parsed, const Json& accessor) {
   const auto& view = parsed.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-  const std::string type = accessor["type"];
+  const std::string type = accessor["type"].get<std::string>();
   const std::size_t components = type == "SCALAR" ? 1 : static_cast<std::size_t>(type[3] - '0');
   const std::size_t count = accessor["count"].get<std::size_t>() * components;
   const auto offset = view["byteOffset"].get<std::size_t>(), length = view["byteLength"].get<std::size_t>();

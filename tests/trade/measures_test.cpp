@@ -1,9 +1,9 @@
 #include "trade/measures.h"
+#include "formats/core/json.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace oriel::trade {
 namespace {

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
+#include "formats/core/json.h"
 #include "formats/image/png.h"
 #include "tests/support/temporary_folder.h"
 #include "trade/html.h"
@@ -76,12 +75,12 @@ TEST(Table, CsvHoldsEveryFieldOfEveryRow) {
 
 TEST(Table, JsonHoldsTheMeasuresAndTheFronts) {
   const Trade trade = small_trade();
-  const auto json = nlohmann::ordered_json::parse(trade_json(trade));
+  const auto json = Json::parse(trade_json(trade)).value();
   ASSERT_EQ(json["configurations"].size(), 2u);
   const auto back = measures_from_json(json["configurations"][0].dump());
   ASSERT_TRUE(back) << back.error().text();
   EXPECT_EQ(as_json(*back), as_json(trade.rows[0].measures));
-  EXPECT_EQ(json["fronts"]["frames_by_ms"]["configurations"], nlohmann::ordered_json::array({0}));
+  EXPECT_EQ(json["fronts"]["frames_by_ms"]["configurations"], Json::array({0}));
   EXPECT_TRUE(json["fronts"]["texels_by_bake"]["configurations"].empty());
   EXPECT_EQ(json["configurations"][1]["failure"], "exit code 4: no,\nreally");
 }

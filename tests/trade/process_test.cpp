@@ -6,6 +6,7 @@
 
 #include "formats/core/file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/waiting.h"
 
 namespace oriel::trade {
 namespace {
@@ -38,7 +39,8 @@ TEST_F(Process, SaysWhyItFailed) {
 
 TEST_F(Process, IsStopped) {
   std::thread later([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    oriel::testing::wait_until(
+        [&] { return std::filesystem::exists(folder_.path() / "log"); });  // it runs, or is about to
     stop_ = true;
   });
   const auto stopped = run({"/bin/sleep", "60"});

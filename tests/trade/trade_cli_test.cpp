@@ -3,11 +3,11 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oriel::trade {
@@ -44,21 +44,21 @@ TEST_F(TradeCli, StopsGoesOnAndRunsNothingTwice) {
   std::smatch last;
   EXPECT_TRUE(std::regex_search(log, last, std::regex("\n([0-9]+) of \\1: [^\n]*\n(?![0-9]+ of )")))
       << "all were counted";
-  const auto json = nlohmann::json::parse(text("out/trade.json"));
+  const auto json = Json::parse(text("out/trade.json")).value();
   EXPECT_EQ(json["unfinished"], 0);
   std::set<std::string> knobs;
   for (const auto& row : json["configurations"]) {
     knobs.insert(row["knob"].get<std::string>());
     EXPECT_FALSE(row.contains("failure")) << row.dump();
     if (row["knob"] == "no bake") {
-      EXPECT_LT(row["bake"]["seconds"], 60) << row.dump();
-      EXPECT_LT(row["all_frames"]["sum"], 1) << row.dump();
+      EXPECT_LT(row["bake"]["seconds"].get<double>(), 60) << row.dump();
+      EXPECT_LT(row["all_frames"]["sum"].get<double>(), 1) << row.dump();
       EXPECT_FALSE(row["all_frames"].contains("D")) << row.dump();
     } else if (row["knob"] == "as published") {
       EXPECT_FALSE(row.contains("texels")) << row.dump();
-      EXPECT_LT(row["all_frames"]["sum"], 0.5) << row.dump();
+      EXPECT_LT(row["all_frames"]["sum"].get<double>(), 0.5) << row.dump();
     } else if (row["paths"] == 0) {
-      EXPECT_LT(row["texels"]["relRMSE"], 0.3) << row.dump();
+      EXPECT_LT(row["texels"]["relRMSE"].get<double>(), 0.3) << row.dump();
     }
   }
   EXPECT_THAT(knobs, ::testing::ElementsAre("as published", "default", "error", "no bake", "reference estimator",

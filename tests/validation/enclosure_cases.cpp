@@ -36,11 +36,11 @@ void add_uniform(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   const Json& j = suite.find("ENC-01");
   for (std::size_t i = 0; i < j["inputs"]["reflectances"].size(); ++i) {
     const std::string rho = j["inputs"]["reflectances"][i].dump();
-    Case c =
-        new_case("ENC-01", "rho " + rho,
-                 uniform_room(suite, "ENC-01_rho" + rho, DVec3(1), DVec3(j["inputs"]["reflectances"][i]), DVec3(1)),
-                 thorough ? 0.1 : 0.25, 0.0035);
-    const double e = j["expected"]["irradiance"][i];
+    Case c = new_case("ENC-01", "rho " + rho,
+                      uniform_room(suite, "ENC-01_rho" + rho, DVec3(1),
+                                   DVec3(j["inputs"]["reflectances"][i].get<double>()), DVec3(1)),
+                      thorough ? 0.1 : 0.25, 0.0035);
+    const double e = j["expected"]["irradiance"][i].get<double>();
     c.readings.push_back(everywhere("worst point", e, e * j["tolerance"]["rel"].get<double>()));
     cases.push_back(c);
   }
@@ -48,11 +48,11 @@ void add_uniform(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   Case c = new_case("ENC-03", "rho .95 .6 .05", suite.scene("ENC-03").value(), thorough ? 0.2 : 0.5, 0.0035);
   for (int k = 0; k < 3; ++k) {
     // B = M + ρE
-    const double b = rgb["expected"]["B"][static_cast<std::size_t>(k)];
+    const double b = rgb["expected"]["B"][static_cast<std::size_t>(k)].get<double>();
     Reading r = everywhere(fmt::format("worst point, {}", "RGB"[k]), b, b * rgb["tolerance"]["rel"].get<double>());
     r.channel = k;
-    r.scale = rgb["inputs"]["rho"][static_cast<std::size_t>(k)];
-    r.offset = rgb["inputs"]["emission"][static_cast<std::size_t>(k)];
+    r.scale = rgb["inputs"]["rho"][static_cast<std::size_t>(k)].get<double>();
+    r.offset = rgb["inputs"]["emission"][static_cast<std::size_t>(k)].get<double>();
     c.readings.push_back(r);
   }
   cases.push_back(c);
@@ -61,7 +61,7 @@ void add_uniform(const Suite& suite, bool thorough, std::vector<Case>& cases) {
 void add_points(const Json& j, Case& c) {
   for (std::size_t i = 0; i < j["inputs"]["points"].size(); ++i) {
     const Json& point = j["inputs"]["points"][i];
-    const double e = j["expected"]["point_irradiance"][i];
+    const double e = j["expected"]["point_irradiance"][i].get<double>();
     c.readings.push_back(at("point " + point["p"].dump(), probe(point["p"], point["n"]), e,
                             e * j["tolerance"]["rel_point"].get<double>()));
   }
@@ -70,12 +70,12 @@ void add_points(const Json& j, Case& c) {
 void add_boxes(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   for (const char* id : {"ENC-04", "ENC-08"}) {
     const Json& j = suite.find(id);
-    Case c = new_case(id, j["title"], suite.scene(id).value(), thorough ? 0.01 : 0.02, 0.003);
+    Case c = new_case(id, j["title"].get<std::string>(), suite.scene(id).value(), thorough ? 0.01 : 0.02, 0.003);
     for (const auto& [face, e] : j["expected"]["mean_irradiance_per_face"].items()) {
       std::vector<std::string> nodes{face};
       if (id == std::string("ENC-08") && face == "z1") nodes = {"z1_lit", "z1_dark"};
-      c.readings.push_back(
-          mean_over("mean " + face, nodes, e, e.get<double>() * j["tolerance"]["rel_mean"].get<double>()));
+      c.readings.push_back(mean_over("mean " + face, nodes, e.get<double>(),
+                                     e.get<double>() * j["tolerance"]["rel_mean"].get<double>()));
     }
     add_points(j, c);
     cases.push_back(c);
@@ -85,7 +85,7 @@ void add_boxes(const Suite& suite, bool thorough, std::vector<Case>& cases) {
 // Integrating sphere: a spot light lays its flux on a part of the wall; elsewhere there is indirect light alone.
 void add_sphere(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   const Json& j = suite.find("ENC-09");
-  const double radius = j["inputs"]["R"], flux = j["inputs"]["Phi"];
+  const double radius = j["inputs"]["R"].get<double>(), flux = j["inputs"]["Phi"].get<double>();
   for (std::size_t i = 0; i < j["inputs"]["rho"].size(); ++i) {
     QuadScene scene;
     scene.parts().sphere("sphere", scene.material(DVec3(j["inputs"]["rho"][i].get<double>())), Vec3(0),
@@ -98,7 +98,7 @@ void add_sphere(const Suite& suite, bool thorough, std::vector<Case>& cases) {
     spot.intensity = Vec3(static_cast<float>(flux / (2 * kPiD * ((1 - ci) + (ci - co) / 3))));
     scene.parts().scene().lights = {spot};
     Case c = new_case("ENC-09", "rho " + j["inputs"]["rho"][i].dump(), scene.finish(), thorough ? 0.05 : 0.1, 0.006);
-    const double e = j["expected"]["E_indirect"][i];
+    const double e = j["expected"]["E_indirect"][i].get<double>();
     for (const std::uint32_t t : {100u, 1500u, 4000u}) {
       const DVec3 p(point_on(c.scene, t, Vec2(1.0f / 3))), n(geometric_normal(c.scene, t));
       if (p.x > 0.8 * radius) continue;  // in the spot
@@ -113,13 +113,13 @@ void add_plates(const Suite& suite, bool thorough, std::vector<Case>& cases) {
     const Json& j = suite.find(id);
     const bool strips = j["inputs"].contains("x");
     const double gap = strips ? j["inputs"]["gap"].get<double>() : id == std::string("PLT-04") ? 1.0 : 0.4;
-    Case c = new_case(id, j["title"], suite.scene(id).value(), thorough ? 0.025 : 0.05, 0.002);
+    Case c = new_case(id, j["title"].get<std::string>(), suite.scene(id).value(), thorough ? 0.025 : 0.05, 0.002);
     if (strips) c.texel_m = thorough ? 0.05 : 0;  // 60 m long
-    const double rel = j["tolerance"]["rel"];
+    const double rel = j["tolerance"]["rel"].get<double>();
     for (std::size_t side = 0; side < 2; ++side) {
       const auto radiosity = [&](Reading r) {
-        r.offset = j["inputs"]["emission"][side];
-        r.scale = j["inputs"]["rho"][side];
+        r.offset = j["inputs"]["emission"][side].get<double>();
+        r.scale = j["inputs"]["rho"][side].get<double>();
         r.tolerance = rel * r.expected;
         c.readings.push_back(r);
       };
@@ -129,10 +129,12 @@ void add_plates(const Suite& suite, bool thorough, std::vector<Case>& cases) {
         const DVec3 p(strips ? where[i].get<double>() : where[i][0].get<double>(),
                       strips ? 0.25 : where[i][1].get<double>(), side == 0 ? 0 : gap);
         const Probe probe{from_case(p), DVec3(0, side == 0 ? 1 : -1, 0), 1};
-        radiosity(at(fmt::format("{} at {}", b, where[i].dump()), probe, j["expected"][b][i], 0));
+        radiosity(at(fmt::format("{} at {}", b, where[i].dump()), probe, j["expected"][b][i].get<double>(), 0));
       }
       // Of an infinite strip the mean is one across its width; near a finite strip's ends it is not.
-      if (!strips) radiosity(mean_over("mean " + b, {side == 0 ? "plate1" : "plate2"}, j["expected"]["mean_" + b], 0));
+      if (!strips)
+        radiosity(
+            mean_over("mean " + b, {side == 0 ? "plate1" : "plate2"}, j["expected"]["mean_" + b].get<double>(), 0));
     }
     cases.push_back(c);
   }
@@ -141,7 +143,8 @@ void add_plates(const Suite& suite, bool thorough, std::vector<Case>& cases) {
 void add_furnaces(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   const Json& sink = suite.find("FUR-01");
   Case c = new_case("FUR-01", "white room, black floor", suite.scene("FUR-01").value(), thorough ? 0.025 : 0.05, 0.004);
-  c.readings.push_back(mean_over("floor", {"z0"}, sink["expected"]["mean_irradiance_floor"], sink["tolerance"]["rel"]));
+  c.readings.push_back(mean_over("floor", {"z0"}, sink["expected"]["mean_irradiance_floor"].get<double>(),
+                                 sink["tolerance"]["rel"].get<double>()));
   cases.push_back(c);
 
   const Json& white = suite.find("FUR-03");
@@ -152,7 +155,7 @@ void add_furnaces(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   open.parts().sphere("sphere", all, Vec3(0.4f, 0.35f, 0.4f), 0.3f, 2);
   open.parts().scene().sky = Vec3(white["inputs"]["environment_radiance"].get<float>());
   c = new_case("FUR-03", "white objects under a white sky", open.finish(), 0.1, 0.0025);
-  const double e = white["expected"]["irradiance"];
+  const double e = white["expected"]["irradiance"].get<double>();
   const double tolerance = e * white["tolerance"]["rel"].get<double>();
   for (const DVec2& p : {DVec2(0.8, 0.8), DVec2(0, 0.4), DVec2(0.4, -0.1), DVec2(-0.8, 0)})
     c.readings.push_back(at(fmt::format("floor at {}, {}", p.x, p.y), {{p.x, 0, p.y}, {0, 1, 0}, 1}, e, tolerance));
@@ -162,11 +165,11 @@ void add_furnaces(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   const Json& grey = suite.find("FUR-04");
   for (std::size_t i = 0; i < grey["inputs"]["rho"].size(); ++i) {
     QuadScene box;
-    const double rho = grey["inputs"]["rho"][i];
+    const double rho = grey["inputs"]["rho"][i].get<double>();
     box.parts().box("box", box.material(DVec3(rho)), Vec3(-0.5f), Vec3(0.5f));
     box.parts().scene().sky = Vec3(grey["inputs"]["environment_radiance"].get<float>());
     c = new_case("FUR-04", fmt::format("rho {}", rho), box.finish(), 0.25, 0.001);
-    const double b = grey["expected"]["B"][i];
+    const double b = grey["expected"]["B"][i].get<double>();
     Reading r = mean_over("worst point", {"box"}, b, b * grey["tolerance"]["rel"].get<double>());
     r.over = Over::kWorst;
     r.scale = rho;
@@ -181,12 +184,12 @@ void add_furnaces(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   two.quad("square2", half, {0, 0, 0}, {0, 1, 0}, {0, 0, 1});
   two.parts().scene().sky = Vec3(corner["inputs"]["environment_radiance"].get<float>());
   c = new_case("FUR-05", "two squares in a corner", two.finish(), thorough ? 0.02 : 0.05, 0.002);
-  const double mean = corner["expected"]["mean_irradiance"];
+  const double mean = corner["expected"]["mean_irradiance"].get<double>();
   c.readings.push_back(
       mean_over("mean", {"square1", "square2"}, mean, mean * corner["tolerance"]["rel_mean"].get<double>()));
   for (std::size_t i = 0; i < corner["inputs"]["points"].size(); ++i) {
     const Json& p = corner["inputs"]["points"][i];
-    const double at_point = corner["expected"]["point_irradiance"][i];
+    const double at_point = corner["expected"]["point_irradiance"][i].get<double>();
     c.readings.push_back(at("point " + p.dump(), {from_case(vec(p)), DVec3(0, 1, 0), 1}, at_point,
                             at_point * corner["tolerance"]["rel_point"].get<double>()));
   }

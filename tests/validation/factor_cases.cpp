@@ -52,19 +52,19 @@ Probe upward(double x) {
 
 void add_disks(const Suite& suite, std::vector<Case>& cases) {
   const Json& point = suite.find("VF-06");
-  const double tolerance = point["tolerance"]["abs"];
+  const double tolerance = point["tolerance"]["abs"].get<double>();
   for (std::size_t i = 0; i < point["inputs"]["point_disk"].size(); ++i) {
     const Json& in = point["inputs"]["point_disk"][i];
-    Case c = under_disk("VF-06 point", in["R"], in["h"]);
+    Case c = under_disk("VF-06 point", in["R"].get<double>(), in["h"].get<double>());
     c.readings.push_back(at(fmt::format("R {} h {}", in["R"].dump(), in["h"].dump()), upward(0),
-                            point["expected"]["F_point"][i], tolerance));
+                            point["expected"]["F_point"][i].get<double>(), tolerance));
     cases.push_back(c);
   }
   for (std::size_t i = 0; i < point["inputs"]["disk_disk"].size(); ++i) {
     const Json& in = point["inputs"]["disk_disk"][i];
-    Case c = under_disk("VF-06 disks", in["r2"], in["h"]);
+    Case c = under_disk("VF-06 disks", in["r2"].get<double>(), in["h"].get<double>());
     Reading r = at(fmt::format("r1 {} r2 {} h {}", in["r1"].dump(), in["r2"].dump(), in["h"].dump()), upward(0),
-                   point["expected"]["F12_disks"][i], tolerance);
+                   point["expected"]["F12_disks"][i].get<double>(), tolerance);
     r.probes.clear();  // the midpoint rule in r²: rings of one area
     constexpr int kRings = 256;
     for (int k = 0; k < kRings; ++k) {
@@ -78,9 +78,10 @@ void add_disks(const Suite& suite, std::vector<Case>& cases) {
   const Json& off = suite.find("VF-07");
   for (std::size_t i = 0; i < off["inputs"]["cases"].size(); ++i) {
     const Json& in = off["inputs"]["cases"][i];
-    Case c = under_disk("VF-07", in["r"], in["h"]);
+    Case c = under_disk("VF-07", in["r"].get<double>(), in["h"].get<double>());
     c.readings.push_back(at(fmt::format("a {} r {} h {}", in["a"].dump(), in["r"].dump(), in["h"].dump()),
-                            upward(in["a"]), off["expected"]["F"][i], off["tolerance"]["abs"]));
+                            upward(in["a"].get<double>()), off["expected"]["F"][i].get<double>(),
+                            off["tolerance"]["abs"].get<double>()));
     cases.push_back(c);
   }
 }
@@ -89,16 +90,16 @@ void add_spheres(const Suite& suite, std::vector<Case>& cases) {
   const Json& j = suite.find("VF-08");
   for (std::size_t i = 0; i < j["inputs"]["cases"].size(); ++i) {
     const Json& in = j["inputs"]["cases"][i];
-    const double angle = in["theta_deg"].get<double>() * kPiD / 180, d = in["d"];
+    const double angle = in["theta_deg"].get<double>() * kPiD / 180, d = in["d"].get<double>();
     QuadScene scene;
     scene.parts().sphere("sphere", scene.material(DVec3(0), DVec3(1)),
-                         Vec3(from_case(d * DVec3(std::sin(angle), 0, std::cos(angle)))), in["R"], 5);
+                         Vec3(from_case(d * DVec3(std::sin(angle), 0, std::cos(angle)))), in["R"].get<float>(), 5);
     Case c;
     c.id = "VF-08";
     c.scene = scene.finish();
     c.lux_error = 0.0002;
     c.readings.push_back(at(fmt::format("R {} d {} theta {}", in["R"].dump(), in["d"].dump(), in["theta_deg"].dump()),
-                            upward(0), j["expected"]["F"][i], j["tolerance"]["abs"]));
+                            upward(0), j["expected"]["F"][i].get<double>(), j["tolerance"]["abs"].get<double>()));
     cases.push_back(c);
   }
 }
@@ -110,18 +111,19 @@ std::vector<Case> factor_cases(const Suite& suite) {
   const auto add = [&](const char* id, const auto& make) {
     const Json& j = suite.find(id);
     for (std::size_t i = 0; i < j["inputs"]["cases"].size(); ++i) {
-      cases.push_back(make(j["inputs"]["cases"][i], j["expected"]["F12"][i], j["tolerance"]["abs"]));
+      cases.push_back(
+          make(j["inputs"]["cases"][i], j["expected"]["F12"][i].get<double>(), j["tolerance"]["abs"].get<double>()));
       cases.back().id = id;
     }
   };
   const auto opposed = [](const Json& in, double expected, double tolerance) {
-    const double a = in["a"], b = in["b"], c = in["c"];
+    const double a = in["a"].get<double>(), b = in["b"].get<double>(), c = in["c"].get<double>();
     const DVec3 first[] = {{0, 0, 0}, {a, 0, 0}, {0, b, 0}}, second[] = {{0, 0, c}, {0, b, 0}, {a, 0, 0}};
     return rectangles(fmt::format("opposed {} x {}, distance {}", a, b, c), first, second, expected, tolerance);
   };
   add("VF-01", opposed);
   add("VF-02", [](const Json& in, double expected, double tolerance) {
-    const double w = in["w"], h = in["h"], l = in["l"];
+    const double w = in["w"].get<double>(), h = in["h"].get<double>(), l = in["l"].get<double>();
     const DVec3 first[] = {{0, 0, 0}, {w, 0, 0}, {0, l, 0}}, second[] = {{0, 0, 0}, {0, l, 0}, {0, 0, h}};
     return rectangles(fmt::format("perpendicular, w {} h {} l {}", w, h, l), first, second, expected, tolerance);
   });

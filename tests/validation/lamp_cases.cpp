@@ -14,7 +14,7 @@ void add_named(const Json& j, const char* quantity, double scale, Case& c) {
   const Json none = Json::object(),
              &table = j["expected"].contains("published_table") ? j["expected"]["published_table"] : none;
   for (const auto& [name, p] : j["inputs"]["points"].items()) {
-    const double e = exact[name];
+    const double e = exact[name].get<double>();
     const Probe where = p.is_array() ? Probe{from_case(vec(p)), DVec3(0, 1, 0), 1} : probe(p["p"], p["n"]);
     Reading r = at(name, where, e, e * j["tolerance"]["rel"].get<double>());
     r.scale = scale;
@@ -47,7 +47,7 @@ Case tilted_receivers(const Suite& suite) {
   c.lux_error = 1e-5;
   for (std::size_t i = 0; i < j["inputs"]["receivers"].size(); ++i) {
     const Json& r = j["inputs"]["receivers"][i];
-    const double e = j["expected"]["E_lux"][i];
+    const double e = j["expected"]["E_lux"][i].get<double>();
     c.readings.push_back(at(r["p"].dump(), probe(r["p"], r["n"]), e,
                             std::max(j["tolerance"]["abs"].get<double>(), e * j["tolerance"]["rel"].get<double>())));
   }
@@ -89,12 +89,12 @@ Case flux(const Suite& suite, const std::string& id) {
   std::vector<std::string> faces;
   for (const auto& [face, lm] : j["expected"]["flux_per_face_lm"].items()) {
     faces.push_back(face);
-    const double e = lm;
+    const double e = lm.get<double>();
     Reading r = mean_over("lm on " + face, {face}, e, e * j["tolerance"]["rel_face"].get<double>());
     r.scale = face[0] == 'x' ? size.y * size.z : face[0] == 'y' ? size.x * size.z : size.x * size.y;
     c.readings.push_back(r);
   }
-  const double total = j["expected"]["total_flux_lm"];
+  const double total = j["expected"]["total_flux_lm"].get<double>();
   Reading r = mean_over("lm in total", faces, total, total * j["tolerance"]["rel_total"].get<double>());
   r.scale = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
   c.readings.push_back(r);
@@ -135,7 +135,7 @@ void add_interreflection(const Suite& suite, std::vector<Case>& cases) {
       QuadScene room;
       room.room(vec(j["inputs"]["room"]),
                 std::vector<std::uint32_t>(6, room.material(DVec3(reflectance.get<double>()))));
-      room.point_light(vec(j["inputs"]["source"]["position"]), j["inputs"]["source"]["flux_lm"]);
+      room.point_light(vec(j["inputs"]["source"]["position"]), j["inputs"]["source"]["flux_lm"].get<double>());
       c.scene = room.finish();
     }
     c.texel_m = 0.4;
@@ -144,7 +144,7 @@ void add_interreflection(const Suite& suite, std::vector<Case>& cases) {
     const std::vector<std::string> faces{"x0", "x1", "y0", "y1", "z0", "z1"};
     for (const auto& [quantity, part] :
          {std::pair{"mean_E_indirect_lux", Part::kIndirect}, {"mean_E_total_lux", Part::kTotal}}) {
-      const double e = j["expected"][quantity][rho];
+      const double e = j["expected"][quantity][rho].get<double>();
       Reading r =
           mean_over(part == Part::kTotal ? "total" : "indirect", faces, e, e * j["tolerance"]["rel"].get<double>());
       r.part = part;

@@ -31,19 +31,20 @@ Case peer(const Suite& suite, const std::string& id, std::size_t step) {
   c.scene = suite.scene(id).value();
   c.texel_m = id == "PEER-troom" ? 0.125 : id == "PEER-cornell" ? 1.0 / 32 : 0.125;
   c.lux_error = 0.01;
-  c.grid = {j["tolerance"]["mean_rel"], j["tolerance"]["nrmse"]};
+  c.grid = {j["tolerance"]["mean_rel"].get<double>(), j["tolerance"]["nrmse"].get<double>()};
   if (j["expected"].contains("irradiance_points"))
     for (const Json& p : j["expected"]["irradiance_points"])
-      c.readings.push_back(
-          against_noise(at("point " + p["p"].dump(), probe(p["p"], p["n"]), p["E"], 0), p["stderr"], j["tolerance"]));
+      c.readings.push_back(against_noise(at("point " + p["p"].dump(), probe(p["p"], p["n"]), p["E"].get<double>(), 0),
+                                         p["stderr"].get<double>(), j["tolerance"]));
   if (!j["expected"].contains("irradiance_grids")) return c;
   for (const auto& [face, grid] : j["expected"]["irradiance_grids"].items()) {
     const Json& quad = quad_named(j["inputs"]["quads"], face);
     for (std::size_t i = 0; i < grid["k"].size(); i += step) {
-      const Probe where = texel_of(quad, grid["k"][i], grid["nu"], grid["nv"]);
-      c.readings.push_back(
-          against_noise(at(fmt::format("{} texel {}", face, grid["k"][i].dump()), where, grid["E_rgb"][i][1], 0),
-                        grid["stderr_g"][i], j["tolerance"]));
+      const Probe where =
+          texel_of(quad, grid["k"][i].get<std::size_t>(), grid["nu"].get<double>(), grid["nv"].get<double>());
+      c.readings.push_back(against_noise(
+          at(fmt::format("{} texel {}", face, grid["k"][i].dump()), where, grid["E_rgb"][i][1].get<double>(), 0),
+          grid["stderr_g"][i].get<double>(), j["tolerance"]));
     }
   }
   return c;

@@ -29,12 +29,12 @@ struct DaylightCase {
 void add_points(const DaylightCase& d, const Json& exact, const Json& published, Case& c) {
   for (const auto& [name, value] : exact.items()) {
     const Json& p = d.j["inputs"]["points"][name];
-    const double e = value;
+    const double e = value.get<double>();
     const bool wall = name == "A" && d.j["tolerance"].contains("rel_wall_A");
     double tolerance = e * (wall ? d.j["tolerance"]["rel_wall_A"].get<double>() : d.rel);
     if (d.j["tolerance"].contains("abs")) tolerance = std::max(tolerance, d.j["tolerance"]["abs"].get<double>());
     Reading r = at(name, probe(p["p"], p["n"]), e, tolerance);
-    if (published.contains(name)) r.published = published[name];
+    if (published.contains(name)) r.published = published[name].get<double>();
     c.readings.push_back(r);
   }
 }
@@ -42,7 +42,7 @@ void add_points(const DaylightCase& d, const Json& exact, const Json& published,
 // 5.9: a square hole in the roof of a black room.
 Scene roof_room(const Json& in) {
   const DVec3 size = vec(in["room"]);
-  const double w = in["w"];
+  const double w = in["w"].get<double>();
   QuadScene scene;
   const auto black = scene.material(DVec3(0));
   scene.room(size, std::vector<std::uint32_t>(6, black), "z1");
@@ -85,7 +85,7 @@ std::vector<Case> sky_cases(const Suite& suite, bool thorough) {
   for (const char* id : {"CIE-5.9-1x1-a", "CIE-5.9-4x4-a", "CIE-5.11-2x1-a"}) {
     const Json& j = suite.find(id);
     const bool facade = j["inputs"].contains("opening_x");
-    const DaylightCase d{j, id, facade ? "SC_plus_ERC_percent" : "SC_percent", j["tolerance"]["rel"]};
+    const DaylightCase d{j, id, facade ? "SC_plus_ERC_percent" : "SC_percent", j["tolerance"]["rel"].get<double>()};
     for (const auto& [type, exact] : j["expected"][d.quantity].items()) {
       if (!thorough && type != "1" && type != "12") continue;
       cases.push_back(daylight(d, "sky " + type, facade ? facade_room(j["inputs"], 0) : roof_room(j["inputs"]),
@@ -94,7 +94,7 @@ std::vector<Case> sky_cases(const Suite& suite, bool thorough) {
     }
   }
   const Json& masked = suite.find("CIE-5.13-v");
-  const DaylightCase d{masked, "CIE-5.13-v", "SC_percent", masked["tolerance"]["rel"]};
+  const DaylightCase d{masked, "CIE-5.13-v", "SC_percent", masked["tolerance"]["rel"].get<double>()};
   for (const auto& [depth, types] : masked["expected"][d.quantity].items())
     for (const auto& [type, exact] : types.items()) {
       if (!thorough && type != "12") continue;

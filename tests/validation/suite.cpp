@@ -15,8 +15,9 @@ std::optional<Suite> Suite::open() {
   suite.folder_ = folder;
   for (const char* name : {"radiosity.json", "cie171.json", "peer_scenes.json", "brdf_fresnel.json"}) {
     std::ifstream in(suite.folder_ / name);
-    suite.files_.push_back(Json::parse(in, nullptr, false));
-    if (suite.files_.back().is_discarded()) return std::nullopt;
+    auto read = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
+    if (!read) return std::nullopt;
+    suite.files_.push_back(std::move(*read));
   }
   return suite;
 }

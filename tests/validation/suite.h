@@ -4,15 +4,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "formats/core/json.h"
 #include "tests/bake/support/scene_parts.h"
 #include "tests/validation/case.h"
 
 namespace oriel::validation {
-
-using Json = nlohmann::json;
 
 class Suite {
  public:

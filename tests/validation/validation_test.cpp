@@ -31,7 +31,7 @@ const Method kMethods[] = {
      }},
 };
 
-class Validation : public testing::TestWithParam<Method> {
+class Validation : public ::testing::TestWithParam<Method> {
  protected:
   void SetUp() override {
     suite_ = Suite::open();
@@ -92,8 +92,8 @@ TEST_P(Validation, Peers) {
   run(peer_cases(*suite_, false));
 }
 
-INSTANTIATE_TEST_SUITE_P(By, Validation, testing::ValuesIn(kMethods),
-                         [](const testing::TestParamInfo<Method>& method) { return method.param.name; });
+INSTANTIATE_TEST_SUITE_P(By, Validation, ::testing::ValuesIn(kMethods),
+                         [](const ::testing::TestParamInfo<Method>& method) { return method.param.name; });
 
 }  // namespace
 }  // namespace oriel::validation

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kMaxPolygons = 128;
 constexpr std::size_t kMaxPunctual = 256;  // that are asked one by one; of more DirectGroup::kPicks are chosen
-constexpr std::size_t kGroup = 64;         // texels whose shadow rays to one light are traced together
+constexpr std::size_t kTexelsATask = 64;   // texels whose shadow rays to one light are traced together
 
 }  // namespace
 
@@ -23,11 +23,13 @@ DirectLight::DirectLight(const Transport& transport, const Texels& texels, const
 
 Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, const Stage& stage,
                              DirectSums& sums) const {
-  const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
-  UnitLoop loop{.stage = "direct light", .count = (list.size() + kGroup - 1) / kGroup};
+  const auto part = [&](std::size_t g) {
+    return list.subspan(g * kTexelsATask, std::min(kTexelsATask, list.size() - g * kTexelsATask));
+  };
+  UnitLoop loop{.stage = "direct light", .count = (list.size() + kTexelsATask - 1) / kTexelsATask};
   const std::size_t punctual = many_punctual_ ? DirectGroup::kPicks : t_.accel.scene().lights.size();
   const std::size_t frosted = 2 * DirectGroup::kFrosted * std::min<std::size_t>(16, t_.lights.frosted().size());
-  loop.rays = static_cast<double>(kGroup * kHalves * (polygons_.size() + punctual + frosted)) * per_half;
+  loop.rays = static_cast<double>(kTexelsATask * kHalves * (polygons_.size() + punctual + frosted)) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) { key(part(g), per_half, !sums.moments.empty(), texels_.eyes); };
   loop.compute = [&](std::size_t g) {
     DirectGroup group(*this, part(g), per_half, !sums.moments.empty());

@@ -14,14 +14,14 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kGroup = 64;    // patches whose rays of one number are traced together
-constexpr double kWhole = 1 + 1e-6;   // of the light, and what rounding adds
-constexpr double kRounding = 1e-5;    // of a patch's light: no growth yet
-constexpr double kDim = 1e-4;         // of the mean: what is darker need not be done
-constexpr int kPatience = 24;         // sweeps over which light may spread before a growth is one
-constexpr int kHasty = 200;           // sweeps that are taken however little time there is: they are cheap
-constexpr double kEndless = 0.1;      // a bound on further bounces from which light is said not to die away
-constexpr double kMuch = 2;           // of what patches hand on of direct light on the mean
+constexpr std::size_t kPatchesATask = 64;  // patches whose rays of one number are traced together
+constexpr double kAllLight = 1 + 1e-6;     // of the light, and what rounding adds
+constexpr double kRounding = 1e-5;         // of a patch's light: no growth yet
+constexpr double kDim = 1e-4;              // of the mean: what is darker need not be done
+constexpr int kPatience = 24;              // sweeps over which light may spread before a growth is one
+constexpr int kHasty = 200;                // sweeps that are taken however little time there is: they are cheap
+constexpr double kEndless = 0.1;           // a bound on further bounces from which light is said not to die away
+constexpr double kMuch = 2;                // of what patches hand on of direct light on the mean
 constexpr std::uint32_t kOfMuch = 8;  // times as many rays for those that hand on so much, out of a gap or a corner
 
 class Solver {
@@ -61,8 +61,8 @@ class Solver {
     const bool named = stage.context.units != nullptr;
     const Hash128 direct = named ? hash_of(direct_) : Hash128();
     const Hash128 booked = named && booked_ ? hash_of(booked_->light) : Hash128();
-    UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kGroup - 1) / kGroup};
-    loop.rays = static_cast<double>(kGroup) * options_.rays_per_patch;
+    UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kPatchesATask - 1) / kPatchesATask};
+    loop.rays = static_cast<double>(kPatchesATask) * options_.rays_per_patch;
     loop.inputs = [&](std::size_t g, Archive& key) {
       key(direct, options_.side, options_.rays_per_patch, g, around_.near(), around_.lamps(), texels_.eyes);
       if (booked_) key(booked);
@@ -70,12 +70,12 @@ class Solver {
     loop.compute = [&](std::size_t g) {
       std::uint64_t traced = 0;
       for (std::uint32_t k = 0; k < kOfMuch * options_.rays_per_patch; ++k)
-        traced += trace_sample(g * kGroup, group_end(g), k, seed);
-      for (std::size_t p = g * kGroup; p < group_end(g); ++p) join_links(patches_[p].links);
+        traced += trace_sample(g * kPatchesATask, group_end(g), k, seed);
+      for (std::size_t p = g * kPatchesATask; p < group_end(g); ++p) join_links(patches_[p].links);
       return traced;
     };
     loop.results = [&](std::size_t g, Archive& archive) {
-      for (std::size_t p = g * kGroup; p < group_end(g); ++p) {
+      for (std::size_t p = g * kPatchesATask; p < group_end(g); ++p) {
         archive(patches_[p].source, patches_[p].unreflected, patches_[p].links);
         if (booked_) archive(patches_[p].booked);
       }
@@ -86,14 +86,14 @@ class Solver {
   // Seconds that trace() is likely to take, from one group in so many; their links are forgotten.
   Result<double> foretell(const Stage& stage) {
     constexpr std::size_t kOneIn = 64;
-    const std::size_t groups = (patches_.size() + kGroup - 1) / kGroup;
+    const std::size_t groups = (patches_.size() + kPatchesATask - 1) / kPatchesATask;
     const std::size_t tried = std::min(groups, groups / kOneIn + static_cast<std::size_t>(thread_count(stage.context)));
     if (tried == 0) return 0;
     const auto begun = std::chrono::steady_clock::now();
     const Status traced = parallel_for(stage, "", tried, [&](std::size_t i) {
       const std::size_t g = i * groups / tried;
       for (std::uint32_t k = 0; k < kSites; ++k)
-        stage.count(trace_sample(g * kGroup, group_end(g), k, stage.context.seed));
+        stage.count(trace_sample(g * kPatchesATask, group_end(g), k, stage.context.seed));
     });
     if (!traced) return tl::unexpected(traced.error());
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
@@ -110,7 +110,7 @@ class Solver {
   std::vector<Vec3> solve_group(Context& context, std::size_t group, int sweeps) const;
 
  private:
-  std::size_t group_end(std::size_t g) const { return std::min(patches_.size(), (g + 1) * kGroup); }
+  std::size_t group_end(std::size_t g) const { return std::min(patches_.size(), (g + 1) * kPatchesATask); }
   // Texels take turns in proportion to the surface that they show.
   std::uint32_t texel_for(const LightPatch& patch, std::uint32_t turn) const {
     const double target = (turn + 0.5) / (patch.rays / kSites) * patch.area_m2;
@@ -199,7 +199,7 @@ class Solver {
   // Whether it had to be.
   static bool bound(LightPatch& patch, const DVec3& most) {
     const DVec3 sum = handed_on(patch);
-    if (!glm::any(glm::greaterThan(sum, kWhole * most))) return false;
+    if (!glm::any(glm::greaterThan(sum, kAllLight * most))) return false;
     const Vec3 share(glm::min(most / glm::max(sum, DVec3(1e-30)), DVec3(1)));
     for (PatchLink& link : patch.links) link.weight *= share;
     return true;

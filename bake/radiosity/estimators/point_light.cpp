@@ -12,12 +12,12 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kFirstDirect = 2, kMostDirect = 32;  // samples a half, point and light; by fours
-constexpr float kUncertain = 0.02f;                          // of the direct light: others get more
-constexpr double kUsualError = 0.02;                         // asked for: then a point and half has
-constexpr std::uint32_t kGather = 16, kMostGather = 64;      // rays; where less is asked for more, at most
-constexpr float kNoisy = 0.05f;                              // relative error of a point's gathered light: then it has
-constexpr std::uint32_t kNoisyGather = 4;                    // times as many
+constexpr std::uint32_t kFirstOfPoint = 2, kMostOfPoint = 32;  // samples a half, point and light; by fours
+constexpr float kUncertainPoint = 0.02f;                       // of the direct light: others get more
+constexpr double kUsualPointError = 0.02;                      // asked for: then a point and half has
+constexpr std::uint32_t kGather = 16, kMostGather = 64;        // rays; where less is asked for more, at most
+constexpr float kNoisy = 0.05f;            // relative error of a point's gathered light: then it has
+constexpr std::uint32_t kNoisyGather = 4;  // times as many
 
 constexpr std::uint32_t kFewerSites = 4;  // times as few as texels try: points are small
 
@@ -47,15 +47,15 @@ class OwnNumbers {
 // list: in coherent order.
 Status light_directly(const RadiosityTask& task, const DirectLight& light, std::vector<std::uint32_t> list,
                       const TexelGraph& graph, DirectSums& sums) {
-  for (std::uint32_t per_half = kFirstDirect; per_half <= kMostDirect; per_half *= 4) {
+  for (std::uint32_t per_half = kFirstOfPoint; per_half <= kMostOfPoint; per_half *= 4) {
     ORIEL_TRY_VOID(light.estimate(list, per_half, task.quick, sums));
-    keep_uncertain(sums, graph, per_half == kFirstDirect ? 0 : kUncertain, task.context, list);
+    keep_uncertain(sums, graph, per_half == kFirstOfPoint ? 0 : kUncertainPoint, task.context, list);
   }
   return {};
 }
 
 std::uint32_t gathered_rays(const RadiosityOptions& options) {
-  const double finer = options.error > 0 ? kUsualError / options.error : 1;
+  const double finer = options.error > 0 ? kUsualPointError / options.error : 1;
   const double rays = double{kGather} * std::max(1.0, finer * finer);
   return static_cast<std::uint32_t>(std::min(rays, double{kMostGather}));
 }

@@ -14,8 +14,8 @@ constexpr float kSamePlane = 0.25f;  // of the distance
 constexpr float kReach = 1.6f;       // texels: a diagonal and a little
 constexpr float kLift = 0.1f;        // texels above the surface at which neighbours must see each other
 
-using Box = boost::geometry::model::box<boost::geometry::model::point<float, 3, boost::geometry::cs::cartesian>>;
-using Rims = boost::geometry::index::rtree<std::pair<Box, std::uint32_t>, boost::geometry::index::quadratic<16>>;
+using RimBox = boost::geometry::model::box<boost::geometry::model::point<float, 3, boost::geometry::cs::cartesian>>;
+using Rims = boost::geometry::index::rtree<std::pair<RimBox, std::uint32_t>, boost::geometry::index::quadratic<16>>;
 
 struct Candidate {
   std::uint32_t a, b;  // a < b
@@ -103,13 +103,13 @@ class NeighbourFinder {
     return false;
   }
 
-  Box reach_of(std::uint32_t i) const {
+  RimBox reach_of(std::uint32_t i) const {
     const Vec3 reach(kReach * size_[i]), low = position_[i] - reach, high = position_[i] + reach;
     return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
   }
 
   void fill_rims() {
-    std::vector<std::pair<Box, std::uint32_t>> entries;
+    std::vector<std::pair<RimBox, std::uint32_t>> entries;
     for (std::uint32_t i = 0; i < texels_.count(); ++i)
       if (texels_.visible[i] > 0 && at_rim(i)) entries.emplace_back(reach_of(i), i);
     rims_ = Rims(entries);

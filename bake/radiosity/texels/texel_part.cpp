@@ -10,7 +10,7 @@
 namespace oriel {
 namespace {
 
-constexpr float kLift = 0.1f;          // of a texel's side
+constexpr float kPartLift = 0.1f;      // of a texel's side
 constexpr float kFarEnd = 1.45f;       // of the texel beside: what parts them may stand on that one
 constexpr std::uint32_t kLooks = 16;   // whether the sky is around
 constexpr std::uint32_t kPoints = 32;  // among which the sides of a wall are weighed
@@ -47,7 +47,7 @@ TexelPart::TexelPart(const Transport& transport, const PageTexel& place, const O
   const std::size_t texel = place.texel;
   const auto corners = corners_of(scene, place);
   if (!corners) return;
-  lift_ = kLift * std::sqrt(0.5f * length2((*corners)[2] - (*corners)[0]));
+  lift_ = kPartLift * std::sqrt(0.5f * length2((*corners)[2] - (*corners)[0]));
   const auto point = [&](const Vec3& u) {
     const TexelPoint p = sample_texel(place.atlas, map, texel, u);
     return point_on_side(scene, p.triangle, p.barycentric);

@@ -11,7 +11,7 @@
 namespace oriel {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 struct Whole {
   Patch patch;
@@ -161,7 +161,7 @@ Scene curved_scene(const std::string& shape) {
   return scene;
 }
 
-class CurvedShapes : public testing::TestWithParam<const char*> {};
+class CurvedShapes : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(CurvedShapes, AreSoundInFewCharts) {
   const Scene scene = curved_scene(GetParam());
@@ -224,7 +224,7 @@ TEST(Atlas, AMouldingHasTexelsForTheSidesItTurnsTo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Atlas, CurvedShapes,
-                         testing::Values("torus", "moebius", "cap", "cone", "cylinder", "icosphere", "helix"),
+                         ::testing::Values("torus", "moebius", "cap", "cone", "cylinder", "icosphere", "helix"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(AtlasQuality, FillAndStretchOfASphereOnOnePage) {

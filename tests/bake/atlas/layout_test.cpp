@@ -10,7 +10,7 @@ namespace oriel {
 namespace {
 
 using shapes::add_quad;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(AtlasLayout, TexelFarTooLargeGivesOneTexelACharts) {
   Scene scene = shapes::empty_scene();

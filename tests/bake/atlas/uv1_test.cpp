@@ -12,8 +12,8 @@ namespace {
 using shapes::add;
 using shapes::add_quad;
 using shapes::add_quad_uv1;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 AtlasOptions uv1_options(int resolution = 128) {
   AtlasOptions options;

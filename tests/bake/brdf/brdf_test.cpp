@@ -296,7 +296,7 @@ TEST(Bsdf, CoatOverWhiteIsAFurnace) {
   }
 }
 
-class BsdfOf : public testing::TestWithParam<std::pair<float, float>> {};
+class BsdfOf : public ::testing::TestWithParam<std::pair<float, float>> {};
 
 // χ² of a point with all that a material may have: coat, anisotropy, diffuse.
 TEST_P(BsdfOf, LayersSampleTheirPdf) {
@@ -316,7 +316,7 @@ TEST_P(BsdfOf, LayersSampleTheirPdf) {
   EXPECT_LT(chi2_excess(draw, [&](const Vec3& wi) { return Bsdf(point, wo).pdf(wi); }), 6);
 }
 INSTANTIATE_TEST_SUITE_P(Layers, BsdfOf,
-                         testing::Values(std::pair{0.7f, 0.0f}, std::pair{0.0f, 1.0f}, std::pair{0.5f, 0.6f}));
+                         ::testing::Values(std::pair{0.7f, 0.0f}, std::pair{0.0f, 1.0f}, std::pair{0.5f, 0.6f}));
 
 // The refit of Phong's lobe to Ward's: 2/α² and 1/8π in the limit, where 1.999/α² and 0.0398 were published.
 TEST(PhongFit, ApproachesTheAnalyticLimit) {

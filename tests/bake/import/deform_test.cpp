@@ -72,7 +72,7 @@ Gltf skinned(const json& weights) {
   for (int i = 0; i < 3; ++i) bytes += std::string("\0\1\0\0", 4);
   const int joints = g.accessor(bytes, 5121, "VEC4", 3);
   std::vector<float> w;
-  for (int i = 0; i < 3; ++i) w.insert(w.end(), {weights[0], weights[1], 0, 0});
+  for (int i = 0; i < 3; ++i) w.insert(w.end(), {weights[0].get<float>(), weights[1].get<float>(), 0, 0});
   json attributes = {{"POSITION", p}, {"NORMAL", n}, {"JOINTS_0", joints}, {"WEIGHTS_0", g.floats("VEC4", w)}};
   g.add({{"attributes", attributes}})["translation"] = {100, 200, 300};
   g.doc["nodes"][0]["skin"] = 0;

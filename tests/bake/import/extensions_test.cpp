@@ -11,7 +11,7 @@ namespace oriel::test {
 namespace {
 
 // 2x2: red, green with alpha 128 / blue with alpha 0, white.
-constexpr const char* kRgba2x2 =
+constexpr const char* kRgbaOfFour =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAFElEQVR4nGP4z8DwHwgbGMA0EAAAP9cIeY8TiooAAAAASUVORK5CYII=";
 // The same as lossless WebP, black where alpha is 0.
 constexpr char kWebp2x2[] =
@@ -20,12 +20,12 @@ constexpr char kWebp2x2[] =
     "\x1d\x11\xfd\x8f\x03\x00";
 
 // A triangle whose texture coordinates are its barycentric ones, with two textures, of which the first is not filtered.
-Gltf textured(const char* material) {
+Gltf textured_by(const char* material) {
   Gltf g;
   const int p = g.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}), uv = g.floats("VEC2", {0, 0, 1, 0, 0, 1});
   g.add({{"attributes", {{"POSITION", p}, {"TEXCOORD_0", uv}}}, {"material", 0}});
-  g.material() = json::parse(material);
-  g.doc["images"] = {{{"uri", std::string("data:image/png;base64,") + kRgba2x2}}};
+  g.material() = json::parse(material).value();
+  g.doc["images"] = {{{"uri", std::string("data:image/png;base64,") + kRgbaOfFour}}};
   g.doc["samplers"] = {{{"magFilter", 9728}}};
   g.doc["textures"] = {{{"source", 0}, {"sampler", 0}}};
   return g;
@@ -52,7 +52,7 @@ TEST(Image, WebP) {
 
 // As its extension has it, whatever stands beside it.
 TEST(Image, WebPStandsBeforeItsFallback) {
-  Gltf g = textured(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  Gltf g = textured_by(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
   g.use("EXT_texture_webp", true);
   const std::string bytes(kWebp2x2, sizeof(kWebp2x2) - 1);
   g.doc["images"].push_back({{"uri", "data:image/webp;base64," + base64(bytes)}});
@@ -70,7 +70,7 @@ TEST(Image, FilesAreFoundAsWindowsFindsThem) {
   std::filesystem::create_directories(folder.path() / "Textures");
   const auto write = [&](const char* name) { folder.write(name, std::string(kWebp2x2, sizeof(kWebp2x2) - 1)); };
   write("Textures/Wood.webp");
-  Gltf g = textured(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  Gltf g = textured_by(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
   const auto found = [&](const char* uri) {
     g.doc["images"][0] = {{"uri", uri}};
     const Imported r = import_file(folder.write("scene.gltf", g.text()));
@@ -87,7 +87,7 @@ TEST(Image, FilesAreFoundAsWindowsFindsThem) {
 // What cannot be read is told of, with what is shown instead or what to do.
 TEST(Extensions, WhatIsLeftOutIsNamed) {
   const auto with = [](const char* name, bool fallback, bool required) {
-    Gltf g = textured(R"({"name":"cloth","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+    Gltf g = textured_by(R"({"name":"cloth","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
     g.use(name, required);
     g.doc["textures"][0] = {{"extensions", {{name, {{"source", 0}}}}}};
     if (fallback) g.doc["textures"][0]["source"] = 0;
@@ -99,7 +99,7 @@ TEST(Extensions, WhatIsLeftOutIsNamed) {
   EXPECT_NE(with("XYZ_new", true, true).error().find("expected one that is supported: export"), std::string::npos);
   EXPECT_TRUE(with("XYZ_new", true, false).warned("extension XYZ_new is not supported and is left out"));
   // The scene is whole without these, required or not.
-  Gltf g = textured(R"({"name":"cloth","extensions":{"KHR_materials_sheen":{"sheenRoughnessFactor":0.5}}})");
+  Gltf g = textured_by(R"({"name":"cloth","extensions":{"KHR_materials_sheen":{"sheenRoughnessFactor":0.5}}})");
   g.use("KHR_materials_sheen", true);
   g.use("KHR_materials_variants", true);
   const Imported r = import(g);
@@ -112,7 +112,8 @@ TEST(Extensions, WhatIsLeftOutIsNamed) {
 // KHR_materials_pbrSpecularGlossiness: the colour of reflections by itself, with Schlick's curve; the alpha of its
 // texture makes rough.
 TEST(Materials, SpecularGlossiness) {
-  const Imported imported = import(textured(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"metallicFactor":1},
+  const Imported imported =
+      import(textured_by(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"metallicFactor":1},
     "extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0.2,0.4,0.6,1],
       "specularFactor":[0.5,0.25,0.125],"glossinessFactor":0.75,"specularGlossinessTexture":{"index":0}}}})"));
   ASSERT_TRUE(imported.ok()) << imported.error();

@@ -1,15 +1,15 @@
 // Tiny glTF files made in memory, written to a temporary folder and imported.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "bake/import/import.h"
+#include "formats/core/json.h"
 
 namespace oriel::test {
 
-using nlohmann::json;
+using json = Json;
 
 // A folder that is gone when this is.
 class TempFolder {

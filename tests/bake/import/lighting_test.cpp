@@ -89,7 +89,8 @@ Gltf with_lights() {
   g.doc["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([
     {"type":"point","color":[1,0.5,0],"intensity":100},
     {"type":"directional","extras":{"oriel":{"angular_diameter_deg":0.5}}},
-    {"type":"directional","extras":"anything"}])");
+    {"type":"directional","extras":"anything"}])")
+                                                             .value();
   const char* names[] = {"lamp", "sun", "moon"};
   for (int i = 0; i < 3; ++i) {
     g.doc["nodes"].push_back({{"name", names[i]}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});

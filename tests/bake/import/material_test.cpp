@@ -45,7 +45,7 @@ Gltf textured(const char* material) {
   const int p = g.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}), uv = g.floats("VEC2", {0, 0, 1, 0, 0, 1}),
             uv1 = g.floats("VEC2", {0.75f, 0.75f, 0.75f, 0.75f, 0.75f, 0.75f});
   g.add({{"attributes", {{"POSITION", p}, {"TEXCOORD_0", uv}, {"TEXCOORD_1", uv1}}}, {"material", 0}});
-  g.material() = json::parse(material);
+  g.material() = json::parse(material).value();
   g.doc["images"] = {{{"uri", png_uri(kRgba2x2)}}};
   g.doc["samplers"] = {{{"magFilter", 9728}}, json::object(), {{"wrapS", 33071}, {"wrapT", 33648}}};
   g.doc["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}, {{"source", 0}, {"sampler", 2}}};

@@ -76,7 +76,7 @@ TEST(Movers, LightsAndEmittersStandStill) {
   Gltf g = with_door();
   g.doc["nodes"][2]["extras"] = kMover;
   g.use("KHR_lights_punctual");
-  g.doc["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([{"type":"point"}])");
+  g.doc["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([{"type":"point"}])").value();
   g.doc["nodes"][2]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
   const Imported lamp = import(g);
   EXPECT_TRUE(lamp.warned("carries the light \"door\""));
@@ -98,7 +98,8 @@ Gltf with_swinging_lamp() {
   g.material()["emissiveFactor"] = {1, 1, 1};
   g.doc["meshes"][1]["primitives"][0]["material"] = 0;
   g.use("KHR_lights_punctual");
-  g.doc["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([{"type":"point"},{"type":"directional"}])");
+  g.doc["extensions"]["KHR_lights_punctual"]["lights"] =
+      json::parse(R"([{"type":"point"},{"type":"directional"}])").value();
   json& nodes = g.doc["nodes"];
   nodes.push_back({{"name", "bulb"}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   nodes.push_back({{"name", "sun"}, {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});

@@ -34,7 +34,7 @@ void add_faces(Gltf& g, int first, int count, bool inwards = false) {
 }
 Gltf with(const char* material) {
   Gltf g;
-  g.material() = json::parse(material);
+  g.material() = json::parse(material).value();
   g.use("KHR_materials_volume", true);
   return g;
 }
@@ -90,7 +90,7 @@ TEST(Solids, WhatIsOpenOrInsideOutIsAPane) {
 TEST(Solids, ThinAndOpaqueAsBefore) {
   for (const char* volume : {R"({"thicknessFactor":0})", R"({"attenuationDistance":2})"}) {
     Gltf g = with(kGlass);
-    g.doc["materials"][0]["extensions"]["KHR_materials_volume"] = json::parse(volume);
+    g.doc["materials"][0]["extensions"]["KHR_materials_volume"] = json::parse(volume).value();
     add_faces(g, 0, 3);
     const Imported r = import(g);
     ASSERT_TRUE(r.ok()) << r.error();
@@ -110,7 +110,7 @@ TEST(Solids, ThinAndOpaqueAsBefore) {
 TEST(Solids, OddNumbersAreToldOf) {
   const auto changed = [](const char* extension, const char* value) {
     Gltf g = with(kGlass);
-    g.doc["materials"][0]["extensions"][extension] = json::parse(value);
+    g.doc["materials"][0]["extensions"][extension] = json::parse(value).value();
     add_faces(g, 0, 6);
     return import(g);
   };

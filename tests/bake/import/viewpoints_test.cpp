@@ -57,7 +57,8 @@ TEST(Viewpoints, PunctualLights) {
   g.doc["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([
     {"type":"point","color":[1,0.5,0],"intensity":100,"range":3},
     {"type":"spot","intensity":7,"spot":{"innerConeAngle":0.1,"outerConeAngle":0.2}},
-    {"type":"directional"}])");
+    {"type":"directional"}])")
+                                                             .value();
   for (int i = 0; i < 3; ++i) {
     g.doc["nodes"].push_back({{"translation", {1, 2, 3}},
                               {"rotation", {-0.7071067811865476, 0, 0, 0.7071067811865476}},
@@ -81,7 +82,7 @@ TEST(Viewpoints, PunctualLights) {
   for (const char* bad : {R"({"type":"sun"})", R"({"type":"point","intensity":-1})",
                           R"({"type":"spot","spot":{"innerConeAngle":0.3,"outerConeAngle":0.2}})",
                           R"({"type":"point","color":[1,-1,0]})"}) {
-    g.doc["extensions"]["KHR_lights_punctual"]["lights"][0] = json::parse(bad);
+    g.doc["extensions"]["KHR_lights_punctual"]["lights"][0] = json::parse(bad).value();
     EXPECT_NE(import(g).error().find("lights[0]"), std::string::npos) << bad;
   }
 }

@@ -5,16 +5,17 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <nlohmann/json.hpp>
-#include <thread>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/waiting.h"
 
 namespace oriel {
 namespace {
 namespace fs = std::filesystem;
+using testing::count_files;
+using testing::wait_until;
 
 class Farm : public ::testing::Test {
  protected:
@@ -45,14 +46,12 @@ class Farm : public ::testing::Test {
     return "oriel-bake worker cornell.glb --threads 1 --cache " + cache + kOptions;
   }
   Bytes bytes(const std::string& file) const { return read_file(folder_.path() / file).value_or(Bytes()); }
-  nlohmann::json report(const std::string& pack) const {
-    const Bytes text = bytes(pack + ".json");
-    return nlohmann::json::parse(reinterpret_cast<const char*>(text.data()),
-                                 reinterpret_cast<const char*>(text.data()) + text.size());
+  Json report(const std::string& pack) const { return Json::parse(bytes(pack + ".json")).value(); }
+  std::uint64_t units(const std::string& pack, const char* which) const {
+    return report(pack)["units"][which].get<std::uint64_t>();
   }
-  std::uint64_t units(const std::string& pack, const char* which) const { return report(pack)["units"][which]; }
 
-  nlohmann::json reuse(const std::string& pack) const { return report(pack)["plan"]["radiosity"]["reuse"]; }
+  Json reuse(const std::string& pack) const { return report(pack)["plan"]["radiosity"]["reuse"]; }
   // Texts of one length.
   void replace_in_scene(const std::string& what, const std::string& by) const {
     Bytes scene = bytes("cornell.glb");
@@ -107,14 +106,15 @@ TEST_F(Farm, TilesWhoseLightAnEditLeavesKeepIt) {
   EXPECT_EQ(this->reuse("a.oriel")["kept"], 0) << "there was no bake before";
   replace_in_scene("0.6860479116439819", "0.4860479116439819");
   ASSERT_EQ(finish(bake("b.oriel", reuse)), 0);
-  EXPECT_GT(this->reuse("b.oriel")["tiles"], 0);
+  EXPECT_GT(this->reuse("b.oriel")["tiles"].get<double>(), 0);
   EXPECT_EQ(this->reuse("b.oriel")["kept"], this->reuse("b.oriel")["tiles"]);
   EXPECT_EQ(this->reuse("b.oriel")["relative_error"], 0);
   EXPECT_EQ(finish("oriel-inspect diff a.oriel b.oriel --tolerance 0"), 0);
   replace_in_scene(kAlbedo, kDarker);
   ASSERT_EQ(finish(bake("c.oriel", reuse)), 0);
-  EXPECT_LT(this->reuse("c.oriel")["kept"], this->reuse("c.oriel")["tiles"]) << "less red light";
-  EXPECT_LE(this->reuse("c.oriel")["relative_error"], 0.02);
+  EXPECT_LT(this->reuse("c.oriel")["kept"].get<double>(), this->reuse("c.oriel")["tiles"].get<double>())
+      << "less red light";
+  EXPECT_LE(this->reuse("c.oriel")["relative_error"].get<double>(), 0.02);
 }
 
 TEST_F(Farm, WorkersThatDieAndWhoseClocksAreWrongMakeTheSameBytes) {
@@ -125,7 +125,7 @@ TEST_F(Farm, WorkersThatDieAndWhoseClocksAreWrongMakeTheSameBytes) {
   const fs::path faketime = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1";
   if (fs::exists(faketime))
     workers.push_back(start(worker("shared"), "LD_PRELOAD=" + faketime.string() + " FAKETIME=-3d"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  ASSERT_TRUE(wait_until([&] { return count_files(folder_.path() / "shared", ".unit") > 3; })) << "they work";
   ::kill(workers[0], SIGKILL);
   ASSERT_EQ(finish(bake("farm.oriel", cache)), 0);
   EXPECT_EQ(bytes("plain.oriel"), bytes("farm.oriel"));

@@ -1,11 +1,11 @@
 // What a plan says of scenes that lack one thing each, and that a bake of them does nothing for it.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "bake/plan/plan.h"
 #include "bake/run/pipeline.h"
+#include "formats/core/json.h"
 #include "tests/bake/import/gltf_maker.h"
 
 namespace oriel {
@@ -181,7 +181,7 @@ TEST(Census, JsonHasItsFieldsAndIsTheSameTwice) {
   const auto text = [&] { return plan_as_json(*make_plan(room.options, false, context)); };
   const std::string first = text();
   EXPECT_EQ(first, text());
-  const auto json = nlohmann::json::parse(first);
+  const auto json = Json::parse(first).value();
   EXPECT_EQ(json["schema"], 1);
   for (const char* key : {"scene", "lights", "materials", "reflectors", "stages", "omitted", "findings", "prediction"})
     EXPECT_TRUE(json.contains(key)) << key;

@@ -23,7 +23,7 @@ ViewOptions small_maps(std::uint32_t resolution = 32) {
   return options;
 }
 
-class CaptureAtScale : public testing::TestWithParam<float> {};
+class CaptureAtScale : public ::testing::TestWithParam<float> {};
 
 // Every pixel of every map: its colour is that of the wall its ray meets, its reprojected point lies there.
 TEST_P(CaptureAtScale, MapsHoldTheWallsThatTheirRaysMeet) {
@@ -55,7 +55,7 @@ TEST_P(CaptureAtScale, MapsHoldTheWallsThatTheirRaysMeet) {
   EXPECT_LT(worst, 1e-4 * 5);       // relative to the room
   EXPECT_LE(wrong, pixels / 2000);  // rays that meet an edge of the room
 }
-INSTANTIATE_TEST_SUITE_P(Scales, CaptureAtScale, testing::Values(1e-3f, 1.0f, 1e3f));
+INSTANTIATE_TEST_SUITE_P(Scales, CaptureAtScale, ::testing::Values(1e-3f, 1.0f, 1e3f));
 
 TEST(Capture, SameBytesForOneAndTwoThreads) {
   const MirrorRoom room;

@@ -8,12 +8,13 @@
 namespace oriel {
 namespace {
 
-constexpr float kNever = std::numeric_limits<float>::infinity();
+constexpr float kNotSeen = std::numeric_limits<float>::infinity();
 
 TEST(Choice, TakesWhatShowsMostThenWhatIsNew) {
   // Candidate 0 shows samples 0 to 2, 1 shows 2 and 3, 2 shows 0 and 1, 3 shows nothing.
-  const NeedTable table{{1, 1, 1, 1},
-                        {9, 9, 9, kNever, kNever, kNever, 9, 9, 9, 9, kNever, kNever, kNever, kNever, kNever, kNever}};
+  const NeedTable table{
+      {1, 1, 1, 1},
+      {9, 9, 9, kNotSeen, kNotSeen, kNotSeen, 9, 9, 9, 9, kNotSeen, kNotSeen, kNotSeen, kNotSeen, kNotSeen, kNotSeen}};
   const Choice choice = choose_views(table, 8, 64, 4096, 0);
   ASSERT_EQ(choice.picks.size(), 2u);
   EXPECT_EQ(choice.picks[0].candidate, 0u);
@@ -26,7 +27,7 @@ TEST(Choice, TakesWhatShowsMostThenWhatIsNew) {
 }
 
 TEST(Choice, HeavySamplesComeFirstAndTiesGoToTheLowerNumber) {
-  const NeedTable table{{1, 1, 5}, {9, 9, kNever, kNever, kNever, 9, kNever, kNever, 9}};
+  const NeedTable table{{1, 1, 5}, {9, 9, kNotSeen, kNotSeen, kNotSeen, 9, kNotSeen, kNotSeen, 9}};
   const Choice choice = choose_views(table, 8, 64, 4096, 0);
   ASSERT_EQ(choice.picks.size(), 2u);
   EXPECT_EQ(choice.picks[0].candidate, 1u);
@@ -34,8 +35,9 @@ TEST(Choice, HeavySamplesComeFirstAndTiesGoToTheLowerNumber) {
 }
 
 TEST(Choice, AMapIsPickedWhileItShowsMoreThanItsPixelsCost) {
-  const NeedTable table{{1, 1, 1, 1},
-                        {9, 9, 9, kNever, kNever, kNever, 9, 9, 9, 9, kNever, kNever, kNever, kNever, kNever, kNever}};
+  const NeedTable table{
+      {1, 1, 1, 1},
+      {9, 9, 9, kNotSeen, kNotSeen, kNotSeen, 9, 9, 9, 9, kNotSeen, kNotSeen, kNotSeen, kNotSeen, kNotSeen, kNotSeen}};
   EXPECT_EQ(choose_views(table, 8, 64, 4096, 8.9 / 4096).picks.size(), 2u);
   EXPECT_EQ(choose_views(table, 8, 64, 4096, 9.1 / 4096).picks.size(), 1u);
   EXPECT_EQ(choose_views(table, 8, 64, 4096, 27.1 / 4096).picks.size(), 0u);
@@ -43,7 +45,7 @@ TEST(Choice, AMapIsPickedWhileItShowsMoreThanItsPixelsCost) {
 
 TEST(Choice, TheResolutionIsThatOfTheMostValue) {
   // One candidate needs 200 pixels for all; two others 60 for half each.
-  const NeedTable table{{1, 1}, {200, 200, 60, kNever, kNever, 60}};
+  const NeedTable table{{1, 1}, {200, 200, 60, kNotSeen, kNotSeen, 60}};
   const auto at = [&](double price) {
     std::vector<Choice> choices;
     for (const std::uint32_t side : {16u, 64u, 256u})

@@ -68,7 +68,7 @@ OutgoingRadiance light(const Furnished& f, float factor = 1) {
   return [&f, factor](const SeenSurface& seen) { return factor * f.room.outgoing()(seen); };
 }
 
-class KeptMaps : public testing::Test {
+class KeptMaps : public ::testing::Test {
  protected:
   // Captures one map of the mirror's, all of it or what is not kept of the bake before.
   struct Bake {

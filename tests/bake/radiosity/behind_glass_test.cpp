@@ -33,7 +33,7 @@ Scene block_in(Around around) {
   return parts.finish();
 }
 
-class BehindABlock : public testing::TestWithParam<std::tuple<Around, Estimator>> {};
+class BehindABlock : public ::testing::TestWithParam<std::tuple<Around, Estimator>> {};
 
 // Glass that absorbs nothing cannot be seen in it.
 TEST_P(BehindABlock, EvenLightStaysEven) {
@@ -51,9 +51,9 @@ TEST_P(BehindABlock, EvenLightStaysEven) {
   EXPECT_NEAR(sum / texels / kPiD, 1, 0.01);
 }
 INSTANTIATE_TEST_SUITE_P(Lights, BehindABlock,
-                         testing::Combine(testing::Values(Around::kLamps, Around::kTexturedLamps, Around::kSky,
-                                                          Around::kSkyImage),
-                                          testing::Values(Estimator::kCached, Estimator::kReference)));
+                         ::testing::Combine(::testing::Values(Around::kLamps, Around::kTexturedLamps, Around::kSky,
+                                                              Around::kSkyImage),
+                                            ::testing::Values(Estimator::kCached, Estimator::kReference)));
 
 // A room with a block of glass under a lamp, whose light paths and particles bend.
 TEST(BehindGlass, ARoomKeepsWhatParticlesBring) {

@@ -28,7 +28,7 @@ RadiosityOptions to_error(double error) {
 }
 
 // Every texel of a closed box or sphere whose walls all emit and reflect alike: E = πL / (1 - ρ).
-class CachedFurnace : public testing::TestWithParam<std::tuple<bool, float>> {};
+class CachedFurnace : public ::testing::TestWithParam<std::tuple<bool, float>> {};
 
 TEST_P(CachedFurnace, EveryTexelIsTheSeries) {
   const auto [sphere, albedo] = GetParam();
@@ -55,7 +55,7 @@ TEST_P(CachedFurnace, EveryTexelIsTheSeries) {
   EXPECT_EQ(b.radiosity.report.buried, 0u);
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, CachedFurnace,
-                         testing::Combine(testing::Bool(), testing::Values(0.0f, 0.5f, 0.9f, 0.99f)));
+                         ::testing::Combine(::testing::Bool(), ::testing::Values(0.0f, 0.5f, 0.9f, 0.99f)));
 
 // So many reflections and no more: E = πL Σ ρ^k. The ball has too many lamps for closed forms, so that rays find a part
 // of what shines on the surfaces that they meet; it was missing there, a sixth of all light with one bounce. Paths that
@@ -137,7 +137,7 @@ TEST(Cached, ASkylightGivesAllItsLight) {
 
 // Mean of the light by surface, against unbiased paths: within 0.3 %, four standard errors of independent texels and
 // one of texels among which the filter spread their noise.
-class CachedAgrees : public testing::TestWithParam<Feature> {};
+class CachedAgrees : public ::testing::TestWithParam<Feature> {};
 
 TEST_P(CachedAgrees, SurfaceMeansEqualUnbiasedPaths) {
   const Scene scene = room(GetParam());
@@ -167,9 +167,9 @@ TEST_P(CachedAgrees, SurfaceMeansEqualUnbiasedPaths) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Features, CachedAgrees,
-                         testing::Values(Feature::kMatt, Feature::kGlossyFloor, Feature::kMirror, Feature::kGlass,
-                                         Feature::kCutOut, Feature::kSphere, Feature::kPoint, Feature::kSky,
-                                         Feature::kDielectric, Feature::kManyLamps));
+                         ::testing::Values(Feature::kMatt, Feature::kGlossyFloor, Feature::kMirror, Feature::kGlass,
+                                           Feature::kCutOut, Feature::kSphere, Feature::kPoint, Feature::kSky,
+                                           Feature::kDielectric, Feature::kManyLamps));
 
 // Under a slab 3 cm over the floor texels of 20 cm see little but each other from close by, and none of them stands for
 // what is met: dark below, with a bright rim.

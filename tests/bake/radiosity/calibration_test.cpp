@@ -8,7 +8,7 @@
 namespace oriel::test {
 namespace {
 
-class Calibrated : public testing::TestWithParam<Feature> {};
+class Calibrated : public ::testing::TestWithParam<Feature> {};
 
 TEST_P(Calibrated, IntervalsHoldTheTruthAndTheErrorAskedForIsMet) {
   CalibrationOptions settings;
@@ -26,8 +26,8 @@ TEST_P(Calibrated, IntervalsHoldTheTruthAndTheErrorAskedForIsMet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, Calibrated,
-                         testing::Values(Feature::kMatt, Feature::kDielectric, Feature::kSky, Feature::kPoint,
-                                         Feature::kSphere));
+                         ::testing::Values(Feature::kMatt, Feature::kDielectric, Feature::kSky, Feature::kPoint,
+                                           Feature::kSphere));
 
 // The checker itself: intervals of less than half the width are found out.
 TEST(Calibration, TooNarrowIntervalsAreFoundOut) {

@@ -16,21 +16,21 @@ using test::SceneParts;
 
 constexpr std::uint64_t kManyRays = 4'000'000;
 
-Baked room(double error, double verify = 0) {
+Baked certified_room(double error, double verify = 0) {
   return test::bake(test::room(test::Feature::kMatt), 0.15f,
                     {.estimator = Estimator::kCached, .samples = 4096, .error = error, .verify = verify});
 }
 
 // Pixels that no bake knows.
-constexpr std::uint64_t kSeed = 0x5ee;
+constexpr std::uint64_t kCertificateSeed = 0x5ee;
 
-std::vector<FramePixel> pixels_of(const Baked& b, const Transport& transport, std::uint64_t seed = kSeed) {
+std::vector<FramePixel> pixels_of(const Baked& b, const Transport& transport, std::uint64_t seed = kCertificateSeed) {
   Context context;
   return *find_frame_pixels(transport, b.atlas, {eyes_in_the_open(transport, 1024, seed), 16}, seed, context);
 }
 
 Certificate certificate_of(const Baked& b, double asked, std::uint64_t rays, int threads = 0, Ask what = Ask::kPoints,
-                           std::uint64_t seed = kSeed) {
+                           std::uint64_t seed = kCertificateSeed) {
   Context context;
   context.threads = threads;
   context.seed = seed;
@@ -70,14 +70,14 @@ double added_error(const Baked& good, const Baked& bad, std::uint64_t seed) {
 }
 
 TEST(HeldOut, TellTheErrorThatIsThere) {
-  const Baked clean = room(0.02);
+  const Baked clean = certified_room(0.02);
   const Certificate good = certificate_of(clean, 0.02, kManyRays);
   EXPECT_GT(good.pixels, 64u);
   Baked b = clean;
   spoil(b, 0.4f);
   int held = 0;
   constexpr int kTimes = 5;  // an interval of 95 % may miss once
-  for (std::uint64_t seed = kSeed; seed < kSeed + kTimes; ++seed) {
+  for (std::uint64_t seed = kCertificateSeed; seed < kCertificateSeed + kTimes; ++seed) {
     const Certificate spoilt = certificate_of(b, 0.05, kManyRays, 0, Ask::kPoints, seed);
     const double added = added_error(clean, b, seed);
     EXPECT_GT(added, 0.1) << "a third of it is left between texels";
@@ -91,7 +91,7 @@ TEST(HeldOut, TellTheErrorThatIsThere) {
 
 // One surface is wrong: the worst pixels are its.
 TEST(HeldOut, NameTheWorst) {
-  Baked b = room(0.02);
+  Baked b = certified_room(0.02);
   const std::uint32_t wrong = b.scene.surfaces[0].first_triangle, end = wrong + b.scene.surfaces[0].triangle_count;
   for (std::size_t p = 0; p < b.texel_map.size(); ++p)
     for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
@@ -144,7 +144,7 @@ TEST(HeldOut, TellTexelsThatAreWrongFromThoseThatAreTooLarge) {
 }
 
 TEST(HeldOut, FewRaysGiveAWiderInterval) {
-  Baked b = room(0.05);
+  Baked b = certified_room(0.05);
   spoil(b, 0.1f);
   const Certificate few = certificate_of(b, 0.02, 1), many = certificate_of(b, 0.02, kManyRays);
   EXPECT_GT(few.pixels, 0u) << "a first batch there is";
@@ -153,7 +153,7 @@ TEST(HeldOut, FewRaysGiveAWiderInterval) {
 }
 
 TEST(HeldOut, AreTheSameForAnyThreads) {
-  const Baked b = room(0.05);
+  const Baked b = certified_room(0.05);
   const Certificate one = certificate_of(b, 0.05, 500'000, 1), two = certificate_of(b, 0.05, 500'000, 2);
   EXPECT_EQ(one.relative_error, two.relative_error);
   EXPECT_EQ(one.pixels, two.pixels);
@@ -161,7 +161,7 @@ TEST(HeldOut, AreTheSameForAnyThreads) {
 }
 
 TEST(HeldOut, CostTheShareThatWasAskedFor) {
-  const Baked without = room(0.01), with = room(0.01, 0.1);
+  const Baked without = certified_room(0.01), with = certified_room(0.01, 0.1);
   EXPECT_EQ(without.radiosity.report.certificate.pixels, 0u);
   EXPECT_GT(with.radiosity.report.certificate.pixels, 0u);
   EXPECT_EQ(with.radiosity.report.refinements, 0);

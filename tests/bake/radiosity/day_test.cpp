@@ -58,7 +58,7 @@ TEST(Day, OpenGroundHasTheLightOfTheModel) {
 }
 
 // A room with a window to the south and one to the east, a table, and a lamp.
-Scene room() {
+Scene room_by_day() {
   SceneParts parts;
   const auto wall = parts.diffuse(Vec3(0.7f, 0.6f, 0.5f)), lamp = parts.diffuse(Vec3(0.5f), Vec3(3000));
   parts.quad("floor", wall, {0, 0, 3}, {4, 0, 0}, {0, 0, -3});
@@ -78,10 +78,10 @@ Scene room() {
 // hundredth of the texels is left out: what those at the edge of a sun's patch have follows from where a few points
 // lie.
 TEST(Day, HoursAreWhatTheirSunAndSkyGiveAlone) {
-  const Baked all = bake(in_daylight(room(), "8-16/4"), 0.2f, options());
+  const Baked all = bake(in_daylight(room_by_day(), "8-16/4"), 0.2f, options());
   const Day& day = all.scene.day;
   for (const DayHour& hour : day.hours) {
-    Scene scene = room();
+    Scene scene = room_by_day();
     for (SceneMaterial& material : scene.materials) material.emission = Vec3(0);
     const Baked alone = bake(in_daylight(std::move(scene), fmt::format("{}", hour.hour)), 0.2f, options());
     const double floor = 0.1 * luminance(alone.radiosity.report.mean);

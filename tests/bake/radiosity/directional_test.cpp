@@ -14,14 +14,14 @@ namespace {
 
 using test::SceneParts;
 
-struct Baked {
+struct DirectionalBake {
   Scene scene;
   Radiosity radiosity;
   std::vector<TexelMapPage> texel_map;
 };
 
-Baked bake(Scene scene, float texel_m, std::uint32_t samples, bool directional = true, int threads = 0) {
-  Baked b;
+DirectionalBake bake(Scene scene, float texel_m, std::uint32_t samples, bool directional = true, int threads = 0) {
+  DirectionalBake b;
   b.scene = std::move(scene);
   Context context;
   context.threads = threads;
@@ -38,7 +38,7 @@ Baked bake(Scene scene, float texel_m, std::uint32_t samples, bool directional =
 
 // Calls visit(irradiance, direction) for every texel of a surface.
 template <class Visit>
-int each_texel(const Baked& b, const std::string& surface, const Visit& visit) {
+int each_texel(const DirectionalBake& b, const std::string& surface, const Visit& visit) {
   int seen = 0;
   for (std::size_t p = 0; p < b.texel_map.size(); ++p)
     for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
@@ -57,7 +57,7 @@ TEST(Directional, EvenSkyIsHalfTheNormal) {
   const Vec3 u = glm::normalize(Vec3(2, 1, 0.5f)), v = glm::normalize(glm::cross(Vec3(1, -2, 0.3f), u));
   parts.quad("plane", parts.diffuse(Vec3(0.5f)), Vec3(1, 2, 3), u, v);
   parts.scene().sky = Vec3(3, 2, 1);
-  const Baked b = bake(parts.finish(), 0.2f, 1024);
+  const DirectionalBake b = bake(parts.finish(), 0.2f, 1024);
   const Vec3 g = glm::normalize(glm::cross(u, v));
   double squares = 0;
   const int texels = each_texel(b, "plane", [&](const Vec3& e, const Vec3& d) {
@@ -81,7 +81,7 @@ TEST(Directional, DistantLightIsItsDirection) {
     sun.direction = -towards;
     sun.intensity = Vec3(100, 50, 20);
     parts.scene().lights.push_back(sun);
-    const Baked b = bake(parts.finish(), 0.5f, 4);
+    const DirectionalBake b = bake(parts.finish(), 0.5f, 4);
     each_texel(b, "plane", [&](const Vec3& e, const Vec3& d) {
       EXPECT_NEAR(e.r, 100 * towards.y, 1e-3f);
       EXPECT_LT(glm::length(d - towards), 1e-5f);
@@ -158,7 +158,7 @@ TEST(Directional, CachedAgreesWithPaths) {
 TEST(Directional, IrradianceIsTheSame) {
   SceneParts parts;
   parts.sphere("sphere", parts.diffuse(Vec3(0.8f), Vec3(1)), Vec3(0), 1, 2, true);
-  const Baked b = bake(parts.finish(), 0.1f, 64);
+  const DirectionalBake b = bake(parts.finish(), 0.1f, 64);
   double area = 0;
   for (std::uint32_t t = 0; t < b.scene.triangles.size(); ++t) area += triangle_area(b.scene, t);
   EXPECT_NEAR(b.radiosity.report.incident_lm.g / area * 0.2 / kPiD, 1, 0.005);
@@ -169,7 +169,7 @@ TEST(Directional, SameBytesForOneAndTwoThreads) {
   parts.box("room", parts.diffuse(Vec3(0.6f)), Vec3(0), Vec3(1), true);
   parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(10)), {0.3f, 0.9f, 0.3f}, {0.4f, 0, 0}, {0, 0, 0.4f});
   const Scene scene = parts.finish();
-  const Baked one = bake(scene, 0.1f, 16, true, 1), two = bake(scene, 0.1f, 16, true, 2);
+  const DirectionalBake one = bake(scene, 0.1f, 16, true, 1), two = bake(scene, 0.1f, 16, true, 2);
   for (std::size_t p = 0; p < one.radiosity.pages.size(); ++p) {
     const auto &a = one.radiosity.pages[p].direction, &b = two.radiosity.pages[p].direction;
     ASSERT_EQ(a.size(), b.size());
@@ -181,7 +181,7 @@ TEST(Directional, SameBytesForOneAndTwoThreads) {
 TEST(Directional, DarknessHasNoDirection) {
   SceneParts parts;
   parts.box("room", parts.diffuse(Vec3(0.5f)), Vec3(0), Vec3(1), true);
-  const Baked b = bake(parts.finish(), 0.2f, 4);
+  const DirectionalBake b = bake(parts.finish(), 0.2f, 4);
   each_texel(b, "room", [](const Vec3&, const Vec3& d) { EXPECT_EQ(d, Vec3(0)); });
 }
 

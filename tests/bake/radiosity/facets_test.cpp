@@ -58,7 +58,7 @@ LightmapPage bake(const Scene& scene, Estimator estimator, int side) {
       ->pages[0];
 }
 
-class Facets : public testing::TestWithParam<Estimator> {};
+class Facets : public ::testing::TestWithParam<Estimator> {};
 
 // Twelve texels over seventy facets, of which those that face the sun and those that do not differ threefold: a texel
 // holds the mean of what lies under it, not the facet under its centre.
@@ -124,7 +124,7 @@ TEST_P(Facets, LampsAllAroundAreAnEvenSky) {
   for (std::size_t t = 0; t < page.state.size(); ++t) EXPECT_NEAR(page.irradiance[t].g / kPi, 1, 0.02) << t;
 }
 
-INSTANTIATE_TEST_SUITE_P(Estimators, Facets, testing::Values(Estimator::kReference, Estimator::kCached));
+INSTANTIATE_TEST_SUITE_P(Estimators, Facets, ::testing::Values(Estimator::kReference, Estimator::kCached));
 
 }  // namespace
 }  // namespace oriel

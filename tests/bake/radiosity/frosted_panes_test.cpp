@@ -49,7 +49,7 @@ double flux(const Baked& b) {
   return sum;
 }
 
-class FrostedRooms : public testing::TestWithParam<std::tuple<float, bool>> {};
+class FrostedRooms : public ::testing::TestWithParam<std::tuple<float, bool>> {};
 
 TEST_P(FrostedRooms, BothEstimatorsAndTheLedgerAgree) {
   const auto [roughness, lamp] = GetParam();
@@ -68,7 +68,8 @@ TEST_P(FrostedRooms, BothEstimatorsAndTheLedgerAgree) {
   EXPECT_LE(ledger.disagreement(), 0.005 + 3 * ledger.disagreement_error());
   EXPECT_LE(ledger.disagreement_error(), 0.01);
 }
-INSTANTIATE_TEST_SUITE_P(Panes, FrostedRooms, testing::Combine(testing::Values(0.2f, 0.5f, 1.0f), testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Panes, FrostedRooms,
+                         ::testing::Combine(::testing::Values(0.2f, 0.5f, 1.0f), ::testing::Bool()));
 
 // What a glossy floor throws on, cast by particles and found by paths.
 TEST(FrostedPanes, GlossyFloorsThrowTheirLightOnOnce) {

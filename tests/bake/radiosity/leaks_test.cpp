@@ -9,15 +9,15 @@ namespace {
 using test::Baked;
 using test::SceneParts;
 
-constexpr float kTexel = 0.1f;
+constexpr float kLeakTexel = 0.1f;
 
-class Leaks : public testing::TestWithParam<Estimator> {
+class Leaks : public ::testing::TestWithParam<Estimator> {
  protected:
   static Baked bake(Scene scene) {
     RadiosityOptions options;
     options.estimator = GetParam();
     options.samples = 64;
-    return test::bake(std::move(scene), kTexel, options);
+    return test::bake(std::move(scene), kLeakTexel, options);
   }
   // For eyes on a circle around the middle alone.
   static Baked bake_seen_from_outside(Scene scene) {
@@ -25,7 +25,7 @@ class Leaks : public testing::TestWithParam<Estimator> {
     if (GetParam() == Estimator::kReference) options = {.samples = 64};
     for (int i = 0; i < 8; ++i)
       options.eyes.emplace_back(1.8f * std::cos(kPi * float(i) / 4), 1.5f, 1.8f * std::sin(kPi * float(i) / 4));
-    return test::bake(std::move(scene), kTexel, options);
+    return test::bake(std::move(scene), kLeakTexel, options);
   }
 };
 
@@ -152,7 +152,7 @@ TEST_P(Leaks, PostThatReachesThroughTheFloor) {
   if (GetParam() == Estimator::kReference) options = {.samples = 64};
   for (int i = 0; i < 9; ++i)
     options.eyes.emplace_back(0.2f + 0.8f * static_cast<float>(i % 3), 1.5f, 0.2f + 0.8f * static_cast<float>(i / 3));
-  const Baked b = test::bake(parts.finish(), kTexel, options);
+  const Baked b = test::bake(parts.finish(), kLeakTexel, options);
   double low = 0, high = 0;
   for (std::uint32_t t = 0; t < b.scene.triangles.size(); ++t) {
     if (b.scene.surfaces[b.scene.triangle_surface[t]].name != "post") continue;
@@ -201,7 +201,7 @@ TEST_P(Leaks, BoardsThatReachThroughTheWall) {
   EXPECT_LT(leaked_share(b, inside), 1e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Estimators, Leaks, testing::Values(Estimator::kReference, Estimator::kCached),
+INSTANTIATE_TEST_SUITE_P(Estimators, Leaks, ::testing::Values(Estimator::kReference, Estimator::kCached),
                          [](const auto& test) { return test.param == Estimator::kReference ? "Reference" : "Cached"; });
 
 }  // namespace

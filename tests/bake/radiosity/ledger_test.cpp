@@ -128,7 +128,7 @@ TEST(Ledger, BacksOfOneSidedWallsLoseLight) {
   EXPECT_EQ(k.ledger.escaped.value, 0);
 }
 
-class LedgerOfRooms : public testing::TestWithParam<test::Feature> {};
+class LedgerOfRooms : public ::testing::TestWithParam<test::Feature> {};
 
 TEST_P(LedgerOfRooms, ClosesAndAgreesWithTheLightmap) {
   const Kept k = keep(test::room(GetParam()), 0.1f, 128);
@@ -140,9 +140,9 @@ TEST_P(LedgerOfRooms, ClosesAndAgreesWithTheLightmap) {
   EXPECT_GT(k.ledger.escaped.value, 0);
 }
 INSTANTIATE_TEST_SUITE_P(Features, LedgerOfRooms,
-                         testing::Values(test::Feature::kGlossyFloor, test::Feature::kMirror, test::Feature::kGlass,
-                                         test::Feature::kCutOut, test::Feature::kSphere, test::Feature::kPoint,
-                                         test::Feature::kSky, test::Feature::kDielectric, test::Feature::kManyLamps));
+                         ::testing::Values(test::Feature::kGlossyFloor, test::Feature::kMirror, test::Feature::kGlass,
+                                           test::Feature::kCutOut, test::Feature::kSphere, test::Feature::kPoint,
+                                           test::Feature::kSky, test::Feature::kDielectric, test::Feature::kManyLamps));
 
 // A lamp that shines on all sides hangs a centimetre below the ceiling: half of its light stays above it, where nobody
 // sees the texels, and where the lightmap has none.

@@ -53,7 +53,7 @@ Patch measure(const Baked& b, double expected, float texel) {
   return patch;
 }
 
-class MirroredSun : public testing::TestWithParam<Estimator> {};
+class MirroredSun : public ::testing::TestWithParam<Estimator> {};
 
 TEST_P(MirroredSun, ThePatchOnTheCeilingIsTheClosedForm) {
   constexpr float kTexel = 0.1f;
@@ -66,7 +66,7 @@ TEST_P(MirroredSun, ThePatchOnTheCeilingIsTheClosedForm) {
   EXPECT_GE(patch.texels, 49) << "a patch of 1 m² by texels of 10 cm";
   EXPECT_LT(patch.outside, 0.5) << "of 780 lux";
 }
-INSTANTIATE_TEST_SUITE_P(Estimators, MirroredSun, testing::Values(Estimator::kCached, Estimator::kReference));
+INSTANTIATE_TEST_SUITE_P(Estimators, MirroredSun, ::testing::Values(Estimator::kCached, Estimator::kReference));
 
 // What else the sun may pass before it lights a floor.
 enum class Way : std::uint8_t { kTwoMirrors, kSlab, kPane };
@@ -100,7 +100,7 @@ DVec3 passed(Way way) {
   return slab;
 }
 
-class SunnyFloor : public testing::TestWithParam<std::tuple<Way, Estimator>> {};
+class SunnyFloor : public ::testing::TestWithParam<std::tuple<Way, Estimator>> {};
 
 TEST_P(SunnyFloor, LightIsTheClosedFormAndTheLedgerCloses) {
   const auto [way, estimator] = GetParam();
@@ -125,8 +125,8 @@ TEST_P(SunnyFloor, LightIsTheClosedFormAndTheLedgerCloses) {
   EXPECT_LE(ledger.disagreement_error(), 0.01);
 }
 INSTANTIATE_TEST_SUITE_P(Ways, SunnyFloor,
-                         testing::Combine(testing::Values(Way::kTwoMirrors, Way::kSlab, Way::kPane),
-                                          testing::Values(Estimator::kCached, Estimator::kReference)));
+                         ::testing::Combine(::testing::Values(Way::kTwoMirrors, Way::kSlab, Way::kPane),
+                                            ::testing::Values(Estimator::kCached, Estimator::kReference)));
 
 // A closed room with a lamp and a mirror: what texels keep is what particles bring.
 Scene room(std::uint32_t lights, bool pane) {
@@ -148,7 +148,7 @@ Scene room(std::uint32_t lights, bool pane) {
   return parts.finish();
 }
 
-class MirroredRooms : public testing::TestWithParam<bool> {};
+class MirroredRooms : public ::testing::TestWithParam<bool> {};
 
 TEST_P(MirroredRooms, KeepWhatParticlesBring) {
   RadiosityOptions options;
@@ -169,7 +169,7 @@ TEST_P(MirroredRooms, KeepWhatParticlesBring) {
   const Ledger open = *keep_ledger({{accel, lights, {}}, dark.atlas, dark.texel_map}, dark.radiosity, 400'000, context);
   EXPECT_GT(open.disagreement(), 0.005 + 3 * open.disagreement_error());
 }
-INSTANTIATE_TEST_SUITE_P(Panes, MirroredRooms, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Panes, MirroredRooms, ::testing::Bool());
 
 // By paths and by the cached estimator alike.
 TEST(Mirrored, BothEstimatorsFindTheSame) {

@@ -12,15 +12,15 @@ namespace {
 
 using test::SceneParts;
 
-struct Baked {
+struct FurnaceBake {
   Scene scene;
   Atlas atlas;
   std::vector<TexelMapPage> texel_map;
   Radiosity radiosity;
 };
 
-Baked bake(Scene scene, float texel_m, std::uint32_t samples, int threads = 0) {
-  Baked b;
+FurnaceBake bake(Scene scene, float texel_m, std::uint32_t samples, int threads = 0) {
+  FurnaceBake b;
   b.scene = std::move(scene);
   Context context;
   context.threads = threads;
@@ -43,19 +43,19 @@ double surface_area(const Scene& scene) {
 }
 
 // The mean over the closed sphere is exact by flux balance: E = πL / (1 - ρ). 0.5 % is the acceptance line.
-class BakedFurnace : public testing::TestWithParam<float> {};
+class BakedFurnace : public ::testing::TestWithParam<float> {};
 
 TEST_P(BakedFurnace, MeanIrradianceIsTheSeries) {
   const float albedo = GetParam();
   SceneParts parts;
   parts.sphere("sphere", parts.diffuse(Vec3(albedo), Vec3(1)), Vec3(0), 1, 2, true);
   // Twenty bounces leave noise of 0.4 % to 64 samples.
-  const Baked b = bake(parts.finish(), 0.1f, albedo > 0.9f ? 256 : 64);
+  const FurnaceBake b = bake(parts.finish(), 0.1f, albedo > 0.9f ? 256 : 64);
   const double mean = b.radiosity.report.incident_lm.g / surface_area(b.scene);
   EXPECT_NEAR(mean * (1 - albedo) / kPiD, 1, 0.005);
   EXPECT_EQ(b.radiosity.report.buried, 0u);
 }
-INSTANTIATE_TEST_SUITE_P(Albedos, BakedFurnace, testing::Values(0.0f, 0.5f, 0.8f, 0.95f));
+INSTANTIATE_TEST_SUITE_P(Albedos, BakedFurnace, ::testing::Values(0.0f, 0.5f, 0.8f, 0.95f));
 
 // A room with a lamp and a dark opening (a black portal, which absorbs what would escape): emitted = absorbed +
 // escaped.
@@ -70,7 +70,7 @@ TEST(Radiosity, EnergyBalances) {
   parts.quad("portal", parts.diffuse(Vec3(0)), {2, 0, 2}, {-2, 0, 0}, {0, 2, 0});
   parts.box("block", white, {0.5f, 0, 0.4f}, {1.1f, 1.1f, 1});
   parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(10, 7, 4)), {0.7f, 1.99f, 0.7f}, {0.5f, 0, 0}, {0, 0, 0.5f});
-  const Baked b = bake(parts.finish(), 0.08f, 256);
+  const FurnaceBake b = bake(parts.finish(), 0.08f, 256);
   DVec3 absorbed(0);
   for (std::size_t p = 0; p < b.texel_map.size(); ++p)
     for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
@@ -119,7 +119,7 @@ TEST(Radiosity, SameBytesForOneAndTwoThreads) {
   parts.box("room", parts.diffuse(Vec3(0.6f)), Vec3(0), Vec3(1), true);
   parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(10)), {0.3f, 0.9f, 0.3f}, {0.4f, 0, 0}, {0, 0, 0.4f});
   const Scene scene = parts.finish();
-  const Baked one = bake(scene, 0.1f, 16, 1), two = bake(scene, 0.1f, 16, 2);
+  const FurnaceBake one = bake(scene, 0.1f, 16, 1), two = bake(scene, 0.1f, 16, 2);
   ASSERT_EQ(one.radiosity.pages.size(), two.radiosity.pages.size());
   for (std::size_t p = 0; p < one.radiosity.pages.size(); ++p) {
     const auto &a = one.radiosity.pages[p].irradiance, &b = two.radiosity.pages[p].irradiance;
@@ -134,7 +134,7 @@ TEST(Radiosity, BuriedTexelsTakeTheirNeighboursLight) {
   parts.box("room", grey, Vec3(0), Vec3(2), true);
   parts.box("pillar", grey, {0.8f, -0.1f, 0.8f}, {1.3f, 2.1f, 1.3f});
   parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(10)), {0.2f, 1.9f, 0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f});
-  const Baked b = bake(parts.finish(), 0.1f, 64);
+  const FurnaceBake b = bake(parts.finish(), 0.1f, 64);
   EXPECT_GT(b.radiosity.report.buried, 20u) << "floor and ceiling under the pillar";
   for (std::size_t p = 0; p < b.texel_map.size(); ++p)
     for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
@@ -161,7 +161,7 @@ TEST(Radiosity, BackFacesDoNotBrightenVisibleTexels) {
   parts.quad("wall", black, Vec3(-kGap, 0, -kHalf), Vec3(0, 0, 2 * kHalf),
              Vec3(0, kHeight, 0));  // faces -x, away from the floor
   parts.scene().sky = Vec3(1);
-  const Baked b = bake(parts.finish(), static_cast<float>(kTexel), 4096);
+  const FurnaceBake b = bake(parts.finish(), static_cast<float>(kTexel), 4096);
   int seen = 0;
   for (std::size_t p = 0; p < b.texel_map.size(); ++p)
     for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
@@ -183,7 +183,7 @@ TEST(Radiosity, BackFacesDoNotBrightenVisibleTexels) {
 TEST(Radiosity, NoLightIsExactlyBlack) {
   SceneParts parts;
   parts.box("room", parts.diffuse(Vec3(0.5f)), Vec3(0), Vec3(1), true);
-  const Baked b = bake(parts.finish(), 0.2f, 4);
+  const FurnaceBake b = bake(parts.finish(), 0.2f, 4);
   for (const LightmapPage& page : b.radiosity.pages)
     for (const Vec3& e : page.irradiance) EXPECT_EQ(e, Vec3(0));
   EXPECT_EQ(b.radiosity.report.relative_error, 0);

@@ -122,8 +122,8 @@ Steps floor_steps(const Baked& b) {
   return steps;
 }
 
-class Seams : public testing::TestWithParam<Estimator> {};
-INSTANTIATE_TEST_SUITE_P(Estimators, Seams, testing::Values(Estimator::kReference, Estimator::kCached));
+class SeamsOfRooms : public ::testing::TestWithParam<Estimator> {};
+INSTANTIATE_TEST_SUITE_P(Estimators, SeamsOfRooms, ::testing::Values(Estimator::kReference, Estimator::kCached));
 
 // Where later stages are foretold to need what is left of --time they are, until it is over: that takes little.
 TEST(SeamsInTime, AreStitchedUntilItIsOver) {
@@ -136,7 +136,7 @@ TEST(SeamsInTime, AreStitchedUntilItIsOver) {
   }
 }
 
-TEST_P(Seams, TilesOfAFloorMeetWithoutSteps) {
+TEST_P(SeamsOfRooms, TilesOfAFloorMeetWithoutSteps) {
   const Scene scene = tiled_floor();
   const Baked raw = bake(scene, 0.1f, options_of(GetParam(), 256, false));
   const Baked b = bake(scene, 0.1f, options_of(GetParam(), 256, true));
@@ -169,7 +169,7 @@ TEST(SeamsOnce, StitchedLightIsNearerToTheTruth) {
 
 // One long edge against two short ones, under a penumbra of some texels: two grids that do not line up cannot both bend
 // within one texel.
-TEST_P(Seams, LongEdgeMeetsTwoShortOnes) {
+TEST_P(SeamsOfRooms, LongEdgeMeetsTwoShortOnes) {
   SceneParts parts;
   const auto white = parts.diffuse(Vec3(0.7f));
   parts.quad("long", white, {0, 0, 1}, {2, 0, 0}, {0, 0, -1});
@@ -218,7 +218,7 @@ Steps own_steps(const Baked& b) {
 }
 
 // A sphere has no flat way onto a page: charts meet in bent seams.
-TEST_P(Seams, ChartsOfASphereMeetWithoutSteps) {
+TEST_P(SeamsOfRooms, ChartsOfASphereMeetWithoutSteps) {
   SceneParts parts;
   parts.sphere("sphere", parts.diffuse(Vec3(0.7f)), Vec3(0), 1, 2);
   parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(30)), {1, 3, 1}, {0.5f, 0, 0}, {0, 0, 0.5f});
@@ -234,7 +234,7 @@ TEST_P(Seams, ChartsOfASphereMeetWithoutSteps) {
 }
 
 // A tube of 24 facets with smooth normals, unrolled and so cut open along a line.
-TEST_P(Seams, TubeIsClosed) {
+TEST_P(SeamsOfRooms, TubeIsClosed) {
   SceneParts parts;
   std::vector<Vec3> positions, normals;
   std::vector<UVec3> triangles;
@@ -266,7 +266,7 @@ void add_lit_corner(SceneParts& parts) {
 }
 
 // A floor and a wall meet at a right angle, and so do the faces of a box: nothing is touched.
-TEST_P(Seams, RealCornersAreLeftAlone) {
+TEST_P(SeamsOfRooms, RealCornersAreLeftAlone) {
   SceneParts parts;
   const auto white = parts.diffuse(Vec3(0.7f));
   parts.quad("floor", white, {0, 0, 1}, {1, 0, 0}, {0, 0, -1});
@@ -284,7 +284,7 @@ TEST_P(Seams, RealCornersAreLeftAlone) {
 }
 
 // The floors of two rooms meet under the wall that parts them, thin (one quad) or thick: no light goes through.
-TEST_P(Seams, LightDoesNotLeakUnderAWall) {
+TEST_P(SeamsOfRooms, LightDoesNotLeakUnderAWall) {
   for (const float thickness : {0.0f, 0.04f, 0.25f}) {
     SceneParts parts;
     const auto white = parts.diffuse(Vec3(0.7f));
@@ -315,7 +315,7 @@ TEST(SeamsOnce, SheetsThatFaceElsewhereAreLeftAlone) {
   EXPECT_EQ(b.radiosity.report.seams.pairs, 0u);
 }
 
-TEST_P(Seams, ExtremesStayFinite) {
+TEST_P(SeamsOfRooms, ExtremesStayFinite) {
   for (const float emission : {0.0f, 1e-20f, 1e20f}) {
     SceneParts parts;
     const auto white = parts.diffuse(Vec3(0.7f));
@@ -327,7 +327,7 @@ TEST_P(Seams, ExtremesStayFinite) {
   }
 }
 
-TEST_P(Seams, OneAndTwoThreadsGiveTheSameBytes) {
+TEST_P(SeamsOfRooms, OneAndTwoThreadsGiveTheSameBytes) {
   const Scene scene = tiled_floor();
   const Baked a = bake(scene, 0.1f, options_of(GetParam(), 16, true), 1),
               b = bake(scene, 0.1f, options_of(GetParam(), 16, true), 2);

@@ -102,7 +102,7 @@ double side_factor(double distance, double height, double along) {
   return (std::atan(along / distance) - distance / slant * std::atan(along / slant)) / (2 * kPiD);
 }
 
-class BesideAnEmittingFace : public testing::Test {
+class BesideAnEmittingFace : public ::testing::Test {
  protected:
   template <class Visit>
   void each(bool textured, const Visit& visit) {

@@ -3,9 +3,9 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/pack/reader.h"
 
 namespace oriel {
@@ -24,8 +24,8 @@ TEST(Landscape, ARoomInItHasAllItsLight) {
   ASSERT_EQ(std::system(line.c_str()), 0);
   const auto pack = read_pack(folder / "dome.oriel");
   ASSERT_TRUE(pack) << pack.error().text();
-  const auto radiosity = nlohmann::json::parse(pack->plan).at("radiosity");
-  EXPECT_GE(radiosity.at("sweeps"), 6);
+  const auto radiosity = Json::parse(pack->plan).value().at("radiosity");
+  EXPECT_GE(radiosity.at("sweeps").get<int>(), 6);
   const auto& paths = radiosity.at("certificate");
   EXPECT_GT(paths.at("bias").get<double>(), -0.1);
   EXPECT_LT(paths.at("bias").get<double>(), 0.1);

@@ -137,8 +137,8 @@ TEST(LightGroups, FollowAFile) {
   const testing::TemporaryFolder folder;
   const std::string file = (folder.path() / "groups.json").string();
   Context context;
-  const auto assign = [&](const std::string& json) -> std::string {
-    std::ofstream(file) << json;
+  const auto assign = [&](const std::string& text) -> std::string {
+    std::ofstream(file) << text;
     const auto options = parse_light_groups(file);
     if (!options) return options.error().text();
     Scene scene = lit_scene();
@@ -150,8 +150,8 @@ TEST(LightGroups, FollowAFile) {
   };
   EXPECT_EQ(assign(R"({"hall": ["panel *"], "desk": ["desk/*"]})"), "hall:2 desk:2 other lamps:1 ");
   EXPECT_EQ(assign(R"({"all": ["*"]})"), "all:5 ");
-  const auto expect = [&](const std::string& json, const std::string& words) {
-    EXPECT_NE(assign(json).find(words), std::string::npos) << assign(json);
+  const auto expect = [&](const std::string& text, const std::string& words) {
+    EXPECT_NE(assign(text).find(words), std::string::npos) << assign(text);
   };
   expect(R"({"a": ["panel *"], "b": ["panel 2"]})", "found the lamp \"panel 2\" in \"a\" and in \"b\"");
   expect(R"({"a": ["panle 1"]})", "found \"panle 1\" in the group \"a\", expected lamps of the scene");

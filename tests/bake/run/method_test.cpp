@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/pack/reader.h"
 #include "tests/support/temporary_folder.h"
 
@@ -52,7 +52,7 @@ TEST_F(PublishedMethod, IsInThePack) {
   }
   for (const BrdfKernel& kernel : pack.kernels)
     EXPECT_TRUE(kernel.slices.empty() && (kernel.size == 1 || kernel.model == KernelModel::kBeckmann));
-  const auto options = nlohmann::json::parse(pack.provenance)["options"];
+  const auto options = Json::parse(pack.provenance).value()["options"];
   EXPECT_EQ(options["method"], "bastos1999");
   EXPECT_EQ(options["views_per_element"], 64);
   EXPECT_EQ(options["orders"], 1);
@@ -82,7 +82,7 @@ TEST_F(PublishedMethod, LeavesLampsToPasses) {
     }
   EXPECT_GT(lux, 0.1 * of_all);
   EXPECT_LT(lux, 0.9 * of_all);
-  EXPECT_EQ(nlohmann::json::parse(passes.provenance)["options"]["method"], "diefenbach1997");
+  EXPECT_EQ(Json::parse(passes.provenance).value()["options"]["method"], "diefenbach1997");
   for (const char* clash : {"--reflections maps", "--estimator reference", "--radiosity vertices",
                             "--light-groups each", "--hidden-black", "--facets gaussian"}) {
     EXPECT_EQ(run(bake + "passes.oriel --method diefenbach1997 " + clash), 1) << clash;

@@ -5,25 +5,25 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "bake/run/option_table.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
+std::string page_text(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-class Options : public testing::Test {
+class Options : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("oriel-options-" + std::to_string(::getpid()));
@@ -36,7 +36,7 @@ class Options : public testing::Test {
     const std::string command =
         "cd '" + folder_.string() + "' && PATH='" ORIEL_BIN_DIR "':\"$PATH\" bash script >log 2>&1";
     code_ = WEXITSTATUS(std::system(command.c_str()));
-    return text_of(folder_ / "log");
+    return page_text(folder_ / "log");
   }
 
   fs::path folder_;
@@ -47,7 +47,7 @@ class Options : public testing::Test {
 TEST_F(Options, PagesHoldTheTablesOfTheirPrograms) {
   for (const std::string program : {"oriel-bake", "oriel-preview"}) {
     const fs::path file = fs::path(ORIEL_SOURCE_DIR) / "docs" / (program + ".md");
-    const std::string page = text_of(file), made = fmt::format("\n{}", run(program + " --options-page"));
+    const std::string page = page_text(file), made = fmt::format("\n{}", run(program + " --options-page"));
     const std::string begin = fmt::format("<!-- Made by {} --options-page; a test compares. -->\n", program),
                       end = "<!-- end -->";
     const std::size_t from = page.find(begin) + begin.size(), to = page.find(end);
@@ -57,12 +57,12 @@ TEST_F(Options, PagesHoldTheTablesOfTheirPrograms) {
       std::ofstream(file) << page.substr(0, from) << made << page.substr(to);
     else
       EXPECT_EQ(page.substr(from, to - from), made)
-          << "ORIEL_UPDATE_DOCS=1 build/release/bin/options_page_test writes the page";
+          << "ORIEL_UPDATE_DOCS=1 build/release/bin/run_test --gtest_filter=Options.* writes the page";
   }
 }
 
 TEST_F(Options, ThePageOfThePlayerNamesThem) {
-  const std::string page = text_of(fs::path(ORIEL_SOURCE_DIR) / "docs/oriel-play.md");
+  const std::string page = page_text(fs::path(ORIEL_SOURCE_DIR) / "docs/oriel-play.md");
   std::istringstream rows(run("oriel-play --options-page"));
   const std::regex name("^\\| `(--[a-z-]+|[A-Z]+).*");
   int seen = 0;
@@ -121,7 +121,7 @@ TEST_F(Options, ValuesCanBeGivenAsTheyAreListed) {
   options.radiosity.samples = 16;
   for (const Option& option : bake_options(options)) {
     const std::string value = option.value.get();
-    if (value.empty() || option.value.type.empty() || option.name == "--resolution") continue;
+    if (value.empty() || option.value.type.empty() || long_name(option) == "--resolution") continue;
     EXPECT_TRUE(option.value.set(value)) << option.name << " " << value;
     EXPECT_EQ(option.value.get(), value) << option.name;
   }
@@ -129,14 +129,14 @@ TEST_F(Options, ValuesCanBeGivenAsTheyAreListed) {
 }
 
 TEST_F(Options, TheRecordHoldsEveryOption) {
-  const auto record = nlohmann::json::parse(options_json(command_line_defaults(), 7));
+  const auto record = Json::parse(options_json(command_line_defaults(), 7)).value();
   EXPECT_EQ(record["seed"], 7);
   EXPECT_EQ(record["texel_m"], "auto");
   EXPECT_EQ(record["views"], "planned");
   EXPECT_EQ(record["map_memory"], 128 << 20);
   BakeOptions options = command_line_defaults();
   for (const Option& option : bake_options(options)) {
-    nlohmann::ordered_json one = nlohmann::ordered_json::object();
+    Json one = Json::object();
     oriel::record(option, one);
     EXPECT_FALSE(one.empty()) << option.name << " can change a pack and is not recorded";
   }

@@ -4,11 +4,11 @@
 
 #include <cstdlib>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "bake/run/vertex_light.h"
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"
 #include "tests/support/temporary_folder.h"
@@ -202,10 +202,10 @@ TEST(VertexLight, IsInThePack) {
   for (const Reflector& r : pack.reflectors)
     for (std::size_t i = 0; i < r.indices.size(); i += 3)
       EXPECT_TRUE(triangles.contains({r.indices[i], r.indices[i + 1], r.indices[i + 2]})) << r.name;
-  const auto plan = nlohmann::json::parse(pack.plan)["radiosity"]["vertices"];
+  const auto plan = Json::parse(pack.plan).value()["radiosity"]["vertices"];
   EXPECT_EQ(plan["error_asked"], 0.2);
   EXPECT_EQ(plan["triangles"], pack.mesh.indices.size() / 3);
-  EXPECT_EQ(nlohmann::json::parse(pack.provenance)["options"]["radiosity"], "vertices:20%");
+  EXPECT_EQ(Json::parse(pack.provenance).value()["options"]["radiosity"], "vertices:20%");
   for (const char* bad : {"mesh", "vertices:", "vertices:0%", "vertices:-1%", "vertices:much", "texture:5%"}) {
     EXPECT_EQ(run(bake + "-o bad.oriel --radiosity " + bad), 1) << bad;
     EXPECT_NE(log().find("--radiosity"), std::string::npos) << log();

@@ -111,7 +111,7 @@ TEST(Accel, RefusesAnEmptyScene) {
 
 // Rays that start on a closed sphere and go inwards must all meet its far side, at every scale and far from the centre:
 // no self-intersection, no leak.
-class AccelScale : public testing::TestWithParam<float> {};
+class AccelScale : public ::testing::TestWithParam<float> {};
 
 TEST_P(AccelScale, NoSelfIntersectionAndNoLeak) {
   const float scale = GetParam();
@@ -134,7 +134,7 @@ TEST_P(AccelScale, NoSelfIntersectionAndNoLeak) {
   EXPECT_EQ(self, 0);
   EXPECT_EQ(leaks, 0);
 }
-INSTANTIATE_TEST_SUITE_P(Scales, AccelScale, testing::Values(1e-6f, 1e-4f, 1.0f, 1e3f, 1e6f));
+INSTANTIATE_TEST_SUITE_P(Scales, AccelScale, ::testing::Values(1e-6f, 1e-4f, 1.0f, 1e3f, 1e6f));
 
 TEST(Accel, CutOutsAndGlassLetLightPass) {
   SceneParts parts;

@@ -42,7 +42,7 @@ std::vector<Vec3> places(const std::vector<BoundedLight>& lights, float size) {
   return out;
 }
 
-class LightTreeScale : public testing::TestWithParam<std::pair<std::size_t, float>> {};
+class LightTreeScale : public ::testing::TestWithParam<std::pair<std::size_t, float>> {};
 
 TEST_P(LightTreeScale, ProbabilitiesAddUpToOne) {
   const auto [count, size] = GetParam();
@@ -65,8 +65,8 @@ TEST_P(LightTreeScale, ProbabilitiesAddUpToOne) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Scales, LightTreeScale,
-                         testing::Values(std::pair{1, 1.0f}, std::pair{8, 1.0f}, std::pair{9, 1.0f},
-                                         std::pair{400, 1.0f}, std::pair{400, 1e-6f}, std::pair{400, 1e6f}));
+                         ::testing::Values(std::pair{1, 1.0f}, std::pair{8, 1.0f}, std::pair{9, 1.0f},
+                                           std::pair{400, 1.0f}, std::pair{400, 1e-6f}, std::pair{400, 1e6f}));
 
 double pick_chi2(const LightTree& tree, std::size_t count, const Vec3& p, double exponent) {
   constexpr std::uint32_t kSamples = 400000;

@@ -31,7 +31,7 @@ Mean irradiance_at(const Scene& scene, std::uint32_t triangle, const Vec2& baryc
 }
 
 // A closed sphere of albedo ρ and uniform radiance L: E = πL / (1 - ρ) everywhere, at every scale.
-class Furnace : public testing::TestWithParam<std::pair<float, float>> {};
+class Furnace : public ::testing::TestWithParam<std::pair<float, float>> {};
 
 TEST_P(Furnace, HoldsTheSeries) {
   const auto [albedo, scale] = GetParam();
@@ -45,8 +45,8 @@ TEST_P(Furnace, HoldsTheSeries) {
   EXPECT_NEAR(e.direct.g / (kPi * 2), 1, 0.01);
 }
 INSTANTIATE_TEST_SUITE_P(Albedos, Furnace,
-                         testing::Values(std::pair{0.0f, 1.0f}, std::pair{0.5f, 1.0f}, std::pair{0.8f, 1.0f},
-                                         std::pair{0.95f, 1.0f}, std::pair{0.5f, 1e-4f}, std::pair{0.5f, 1e6f}));
+                         ::testing::Values(std::pair{0.0f, 1.0f}, std::pair{0.5f, 1.0f}, std::pair{0.8f, 1.0f},
+                                           std::pair{0.95f, 1.0f}, std::pair{0.5f, 1e-4f}, std::pair{0.5f, 1e6f}));
 
 TEST(Path, PointSpotAndDirectionalLights) {
   SceneParts parts;
@@ -92,7 +92,7 @@ TEST(Path, AreaLightHasItsFormFactor) {
 }
 
 // The same, close above a floor so large that its points are rounded to a share of the distance; at three scales.
-class CloseLamp : public testing::TestWithParam<float> {};
+class CloseLamp : public ::testing::TestWithParam<float> {};
 
 TEST_P(CloseLamp, IsNotHiddenByItself) {
   const float scale = GetParam();
@@ -108,7 +108,7 @@ TEST_P(CloseLamp, IsNotHiddenByItself) {
         << height;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Scales, CloseLamp, testing::Values(1e-3f, 1.0f, 1e3f));
+INSTANTIATE_TEST_SUITE_P(Scales, CloseLamp, ::testing::Values(1e-3f, 1.0f, 1e3f));
 
 // Light sampling alone reads low where a whole face emits beside the receiver: MIS must not.
 TEST(Path, AdjoiningEmitterIsNotReadLow) {

@@ -83,7 +83,7 @@ TEST(Warp, TriangleIsUniform) {
   EXPECT_NEAR(mean.y, 1.0 / 3, 2e-3);
 }
 
-class BsdfAlpha : public testing::TestWithParam<std::pair<float, float>> {};
+class BsdfAlpha : public ::testing::TestWithParam<std::pair<float, float>> {};
 
 TEST_P(BsdfAlpha, SamplingMatchesPdf) {
   const auto [alpha, cos_o] = GetParam();
@@ -101,7 +101,7 @@ TEST_P(BsdfAlpha, SamplingMatchesPdf) {
   EXPECT_LT(chi2_excess(draw, [&](const Vec3& wi) { return Bsdf(point, wo).pdf(wi); }), 6);
 }
 INSTANTIATE_TEST_SUITE_P(Lobes, BsdfAlpha,
-                         testing::Values(std::pair{1.0f, 0.9f}, std::pair{0.4f, 0.7f}, std::pair{0.25f, 0.3f}));
+                         ::testing::Values(std::pair{1.0f, 0.9f}, std::pair{0.4f, 0.7f}, std::pair{0.25f, 0.3f}));
 
 // A white surface under uniform light never sends out more than it receives: lobes and albedo table agree.
 TEST(Bsdf, FurnaceNeverExceedsOne) {

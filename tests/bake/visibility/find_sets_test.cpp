@@ -17,7 +17,7 @@ using test::SceneParts;
 
 // Two rooms of 4 x 4 m side by side along x with a wall 20 cm thick between them, from z = 0; with a door from z = 1.5
 // to 2.5 if asked for.
-SceneParts two_rooms(bool door) {
+SceneParts rooms_beside(bool door) {
   SceneParts parts;
   const auto wall = parts.diffuse(Vec3(0.5f));
   parts.box("room", wall, {0, 0, 0}, {8, 2.6f, 4}, true);
@@ -72,7 +72,7 @@ std::uint32_t surface(const Scene& scene, const std::string& name) {
 
 TEST(FindSets, WallsHideWhatIsBehindThemAndDoorsShowIt) {
   for (const bool door : {false, true}) {
-    SceneParts parts = two_rooms(door);
+    SceneParts parts = rooms_beside(door);
     const auto red = parts.diffuse(Vec3(0.5f, 0, 0));
     parts.box("here", red, {1, 0, 1}, {1.2f, 0.2f, 1.2f});
     parts.box("opposite the door", red, {7, 1, 1.9f}, {7.2f, 1.2f, 2.1f});
@@ -100,7 +100,7 @@ TEST(FindSets, SlitsAreFound) {
 
 TEST(FindSets, GlassCutOutsAndBacksHideNothing) {
   for (const int kind : {0, 1, 2, 3}) {
-    SceneParts parts = two_rooms(true);
+    SceneParts parts = rooms_beside(true);
     SceneMaterial pane;
     pane.transmission = kind == 1 ? 0.9f : 0.0f;
     pane.alpha_mode = kind == 2 ? AlphaMode::kMask : AlphaMode::kOpaque;
@@ -130,7 +130,7 @@ TEST(FindSets, SurfacesThatLieInEachOtherAreAllSeen) {
 }
 
 TEST(FindSets, ThreadsDoNotMatter) {
-  const Scene scene = two_rooms(true).finish();
+  const Scene scene = rooms_beside(true).finish();
   EXPECT_EQ(find(scene, {first_room()}, 4, 1).seen, find(scene, {first_room()}, 4, 3).seen);
 }
 
@@ -147,7 +147,7 @@ TEST(FindSets, EyeCellsStayFew) {
 // Pillars and boards at random, by surface of a few triangles: what an eye sees on an even grid of directions must be
 // in the sets of its place.
 TEST(FindSets, RandomEyesSeeNothingElse) {
-  SceneParts parts = two_rooms(true);
+  SceneParts parts = rooms_beside(true);
   const auto wall = parts.diffuse(Vec3(0.5f));
   Sampler place(5, 1, 0);
   for (int i = 0; i < 60; ++i) {
@@ -202,7 +202,7 @@ TEST(FindSets, RandomEyesSeeNothingElse) {
 // nothing of the second. Behind a screen that hides the mirror from all eyes it shows nothing.
 TEST(ReflectedSets, HoldWhatEyesSeeInAMirror) {
   for (const bool hidden : {false, true}) {
-    SceneParts parts = two_rooms(false);
+    SceneParts parts = rooms_beside(false);
     const auto grey = parts.diffuse(Vec3(0.5f));
     parts.quad("mirror", grey, {3.89f, 1, 1.5f}, {0, 0, 1}, {0, 1, 0});  // to -x
     parts.box("ball", grey, {1, 1, 1}, {1.2f, 1.2f, 1.2f});

@@ -16,14 +16,14 @@ Accel accel_of(const Scene& scene) {
   return std::move(*accel);
 }
 
-EyeRegion region_of(const Scene& scene) {
+EyeRegion ground_of(const Scene& scene) {
   Context context;
   auto region = find_eye_region(accel_of(scene), {}, context);
   EXPECT_TRUE(region);
   return *region;
 }
 
-double walkable_m2(const EyeRegion& region) {
+double ground_m2(const EyeRegion& region) {
   double area = 0;
   for (const WalkGrid& grid : region.grids) area += grid.walkable_m2();
   return area;
@@ -41,16 +41,15 @@ Scene pavilion(float lawn_m, bool dome) {
 }
 
 TEST(OpenGround, IsWalkedOnOnlyNearARoof) {
-  const double small = walkable_m2(region_of(pavilion(30, false))),
-               large = walkable_m2(region_of(pavilion(300, false)));
+  const double small = ground_m2(ground_of(pavilion(30, false))), large = ground_m2(ground_of(pavilion(300, false)));
   EXPECT_GT(small, 100);  // under the roof and 5 m around it
   EXPECT_LT(small, 18.5 * 18.5);
   EXPECT_NEAR(large, small, 0.05 * small);
-  EXPECT_GT(region_of(pavilion(300, false)).left_out_m2, 1000);  // of what is searched
+  EXPECT_GT(ground_of(pavilion(300, false)).left_out_m2, 1000);  // of what is searched
 }
 
 TEST(OpenGround, ADomeIsNoRoof) {
-  EXPECT_NEAR(walkable_m2(region_of(pavilion(300, true))), walkable_m2(region_of(pavilion(300, false))), 40);
+  EXPECT_NEAR(ground_m2(ground_of(pavilion(300, true))), ground_m2(ground_of(pavilion(300, false))), 40);
 }
 
 TEST(OpenGround, CountsAroundACameraThatStandsThere) {
@@ -59,13 +58,13 @@ TEST(OpenGround, CountsAroundACameraThatStandsThere) {
   camera.eye = {100, 1.6f, 0};
   camera.vertical_fov_rad = 1;
   scene.cameras.push_back(camera);
-  const double area = walkable_m2(region_of(scene));
+  const double area = ground_m2(ground_of(scene));
   EXPECT_GT(area, 500);  // 25 m around the camera, along the floor's two axes: 2 · 25² m²
   EXPECT_LT(area, 2000);
 }
 
 // A closed room of 6 x 2.7 x 5 m with a box in it, in some unit.
-Scene room(float unit, bool ground = false) {
+Scene unit_room(float unit, bool ground = false) {
   SceneParts parts;
   const std::uint32_t m = parts.diffuse(Vec3(0.5f));
   parts.box("room", m, Vec3(0), unit * Vec3(6, 2.7f, 5), true);
@@ -77,7 +76,7 @@ Scene room(float unit, bool ground = false) {
 
 TEST(SceneUnit, IsToldByRooms) {
   for (const auto& [unit, metres] : {std::pair{1000.0f, 0.001}, {100.0f, 0.01}, {0.001f, 1000.0}, {0.01f, 100.0}}) {
-    const auto guess = guess_unit(accel_of(room(unit)));
+    const auto guess = guess_unit(accel_of(unit_room(unit)));
     ASSERT_TRUE(guess) << unit;
     EXPECT_DOUBLE_EQ(guess->metres, metres);
     EXPECT_NEAR(guess->room_height, 2.7 * unit, 0.9 * unit);  // less above the table and below it
@@ -104,9 +103,9 @@ TEST(SceneUnit, BoardsAreNoRooms) {
 }
 
 TEST(SceneUnit, MetresStay) {
-  EXPECT_FALSE(guess_unit(accel_of(room(1))));
-  EXPECT_FALSE(guess_unit(accel_of(room(1, true))));  // a wide plane around it tells nothing
-  EXPECT_FALSE(guess_unit(accel_of(room(3))));        // a hall
+  EXPECT_FALSE(guess_unit(accel_of(unit_room(1))));
+  EXPECT_FALSE(guess_unit(accel_of(unit_room(1, true))));  // a wide plane around it tells nothing
+  EXPECT_FALSE(guess_unit(accel_of(unit_room(3))));        // a hall
   EXPECT_FALSE(guess_unit(accel_of(pavilion(1000, true))));
 }
 
@@ -134,7 +133,7 @@ TEST(SceneUnit, ThingsWithoutRoomsTellNothing) {
 
 // Eyes in the middle of a closed room with a box around it that nobody sees from outside.
 TEST(ViewImportance, CountsWhatIsSeen) {
-  const Scene scene = room(1);
+  const Scene scene = unit_room(1);
   const Accel accel = accel_of(scene);
   EyeRegion region;
   region.points = {{3, 1.6f, 2.5f}};

@@ -19,6 +19,11 @@ def count(folder, ending):
     return sum(name.endswith(ending) for _, _, names in os.walk(folder) for name in names)
 
 
+def wait_until(done):
+    while not done():
+        time.sleep(0.002)
+
+
 class Bakes:
     def __init__(self, args, folder, threads):
         self.bin, self.folder, self.threads = args.bin, folder, threads

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
 
 #include "bake/import/import.h"
 #include "bake/reference/illuminance.h"
 #include "formats/assets/bilinear.h"
+#include "formats/cli/command.h"
 #include "formats/core/color.h"
 #include "formats/pack/reader.h"
 #include "formats/query/camera.h"
@@ -29,7 +29,7 @@ struct Settings {
   int width = 480, height = 320, threads = 0;
   std::size_t points = 400;  // a camera
   double error = 0.01;
-  std::vector<float> line, facing = {0, 1, 0};  // world metres: both ends; the surface's normal
+  std::vector<double> line, facing = {0, 1, 0};  // world metres: both ends; the surface's normal
 };
 
 struct EdgePoint {
@@ -164,9 +164,11 @@ void print_row(const std::string& camera, const std::string& pack, std::span<con
 Status print_line(const Settings& settings, const Transport& transport, std::span<const PackLight> packs,
                   Context& context) {
   constexpr double kStep_m = 0.01;
-  const std::vector<float>& l = settings.line;
+  if (settings.line.size() != 6 || settings.facing.size() != 3)
+    return fail(ErrorCode::kUsage, "--line, --facing", "expected 6 and 3 numbers");
+  const std::vector<double>& l = settings.line;
   const DVec3 from(l[0], l[1], l[2]), to(l[3], l[4], l[5]);
-  const Vec3 normal = glm::normalize(Vec3(settings.facing[0], settings.facing[1], settings.facing[2]));
+  const Vec3 normal(glm::normalize(DVec3(settings.facing[0], settings.facing[1], settings.facing[2])));
   std::vector<MeasurePoint> meters;
   const auto steps = static_cast<int>(glm::distance(from, to) / kStep_m);
   for (int i = 0; i <= steps; ++i) meters.push_back({from + i * kStep_m * glm::normalize(to - from), normal});
@@ -222,21 +224,23 @@ Status run(const Settings& settings) {
 }  // namespace oriel
 
 int main(int argc, char** argv) {
-  oriel::Settings settings;
-  CLI::App app("Errors of baked light along edges");
-  app.add_option("scene", settings.scene)->required();
-  app.add_option("packs", settings.packs)->required();
-  app.add_option("--width", settings.width, "Of the frames whose pixels are looked at");
-  app.add_option("--height", settings.height);
-  app.add_option("--points", settings.points, "At most so many a camera");
-  app.add_option("--error", settings.error, "Standard error of the illuminance they are held against");
-  app.add_option("--threads", settings.threads);
-  app.add_option("--line", settings.line, "Both ends of a line on a surface, world metres")
-      ->delimiter(',')
-      ->expected(6);
-  app.add_option("--facing", settings.facing, "That surface's normal")->delimiter(',')->expected(3);
-  CLI11_PARSE(app, argc, argv);
-  const oriel::Status done = oriel::run(settings);
+  using namespace oriel;
+  Settings settings;
+  if (const auto code = parse_options(
+          argc, argv, "Errors of baked light along edges",
+          {{"SCENE", "Arguments", "That was baked", text(settings.scene, "SCENE"), Use::kRequired},
+           {"PACK", "Arguments", "Bakes of it", texts(settings.packs, "PACK"), Use::kRequired},
+           {"--width", "Options", "Of the frames whose pixels are looked at", number(settings.width, 1, 1e6)},
+           {"--height", "Options", "Likewise", number(settings.height, 1, 1e6)},
+           {"--points", "Options", "At most so many a camera", number(settings.points, 1, 1e9)},
+           {"--error", "Options", "Standard error of the illuminance they are held against",
+            number(settings.error, 1e-9, 1e9)},
+           {"--threads", "Options", "0: all", number(settings.threads, 0, 1024)},
+           {"--line", "Options", "Both ends of a line on a surface, world metres: x,y,z,x,y,z",
+            numbers(settings.line, -1e9, 1e9)},
+           {"--facing", "Options", "That surface's normal: x,y,z", numbers(settings.facing, -1e9, 1e9)}}))
+    return *code;
+  const Status done = run(settings);
   if (!done) std::fprintf(stderr, "%s\n", done.error().text().c_str());
   return done ? 0 : static_cast<int>(done.error().code);
 }

@@ -3,9 +3,9 @@
 #include <sys/resource.h>
 
 #include <chrono>
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "formats/cli/command.h"
 #include "formats/core/parallel.h"
 #include "formats/pack/reader.h"
 #include "formats/query/camera.h"
@@ -235,17 +235,19 @@ Status run(const std::string& file, const std::string& camera, const IVec2& size
 }  // namespace oriel
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Prints what movers' shadows cost a frame in which all movers of a pack move, and their error on the floor.");
+  using namespace oriel;
   std::string pack, camera = "entrance";
   int width = 720, height = 486, frames = 20;
-  app.add_option("pack", pack)->required();
-  app.add_option("--camera", camera)->capture_default_str();
-  app.add_option("--width", width)->capture_default_str();
-  app.add_option("--height", height)->capture_default_str();
-  app.add_option("--frames", frames)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  const oriel::Status done = oriel::run(pack, camera, {width, height}, frames);
+  if (const auto code = parse_options(
+          argc, argv,
+          "Prints what movers' shadows cost a frame in which all movers of a pack move, and their error on the floor.",
+          {{"PACK", "Arguments", "With movers", text(pack, "PACK"), Use::kRequired},
+           {"--camera", "Options", "By name", text(camera, "NAME")},
+           {"--width", "Options", "Pixels", number(width, 1, 16384)},
+           {"--height", "Options", "Pixels", number(height, 1, 16384)},
+           {"--frames", "Options", "Of each measurement", number(frames, 1, 1e6)}}))
+    return *code;
+  const Status done = run(pack, camera, {width, height}, frames);
   if (!done) return std::fprintf(stderr, "%s\n", done.error().text().c_str()), static_cast<int>(done.error().code);
   return 0;
 }

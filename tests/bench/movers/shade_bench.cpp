@@ -1,8 +1,8 @@
 // The shade of movers in light from everywhere, after Barczak 2006: frame time by lights and by method, passes, moving
 // movers, error by lights and maps (docs/movers.md).
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "formats/cli/command.h"
 #include "formats/core/color.h"
 #include "formats/pack/reader.h"
 #include "formats/query/camera.h"
@@ -156,7 +156,7 @@ Status print_errors(const Bench& bench) {
 struct Asked {
   std::string pack;
   std::vector<std::string> cameras;
-  std::vector<std::uint32_t> lights{25, 50, 100, 300, 1000};
+  std::vector<double> lights{25, 50, 100, 300, 1000};
   std::string size = "1024x768";
   bool methods = false, moving = false, errors = false;
 };
@@ -178,25 +178,27 @@ Status run(const Asked& asked, int frames) {
   ORIEL_TRY(bench.renderer, Renderer::create(device));
   std::printf("%s, %zu movers of %zu triangles, %s\n\n", asked.pack.c_str(), bench.scene->pack().movers.size(),
               bench.scene->pack().movers.front().mesh.indices.size() / 3, device.renderer.c_str());
-  if (asked.methods) ORIEL_TRY_VOID(print_methods(bench, asked.lights));
+  const std::vector<std::uint32_t> lights(asked.lights.begin(), asked.lights.end());
+  if (asked.methods) ORIEL_TRY_VOID(print_methods(bench, lights));
   if (asked.moving) ORIEL_TRY_VOID(print_moving(bench, 300));
   if (asked.errors) ORIEL_TRY_VOID(print_errors(bench));
   return {};
 }
 
 int bench(int argc, char** argv) {
-  CLI::App app("Prints what the shade of movers costs and how well it is, by method.");
   Asked asked;
   int frames = 3;
-  app.add_option("pack", asked.pack, "with movers")->required();
-  app.add_option("--camera", asked.cameras, "names")->required();
-  app.add_option("--lights", asked.lights)->capture_default_str();
-  app.add_option("--size", asked.size)->capture_default_str();
-  app.add_option("--frames", frames, "of each measurement, of which the median counts")->capture_default_str();
-  app.add_flag("--methods", asked.methods, "time by lights and method");
-  app.add_flag("--moving", asked.moving, "time by maps a frame");
-  app.add_flag("--errors", asked.errors, "error by lights and maps");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto code = parse_options(
+          argc, argv, "Prints what the shade of movers costs and how well it is, by method.",
+          {{"PACK", "Arguments", "With movers", text(asked.pack, "PACK"), Use::kRequired},
+           {"--camera", "Options", "By name; repeatable", texts(asked.cameras, "NAME"), Use::kRequired},
+           {"--lights", "Options", "So many, one after the other", numbers(asked.lights, 1, 1e6)},
+           {"--size", "Options", "Pixels", text(asked.size, "WxH")},
+           {"--frames", "Options", "Of each measurement, of which the median counts", number(frames, 1, 1e6)},
+           {"--methods", "Options", "Time by lights and method", flag(asked.methods)},
+           {"--moving", "Options", "Time by maps a frame", flag(asked.moving)},
+           {"--errors", "Options", "Error by lights and maps", flag(asked.errors)}}))
+    return *code;
   const Status status = run(asked, frames);
   if (!status) return std::fprintf(stderr, "%s\n", status.error().text().c_str()), 1;
   return 0;

@@ -4,11 +4,11 @@
 //
 // Cut-outs and see-through surfaces are not drawn: what lies behind them counts as seen, they themselves are not
 // judged.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
 #include <random>
 
+#include "formats/cli/command.h"
 #include "formats/pack/reader.h"
 #include "formats/query/camera.h"
 #include "player/gpu/buffer.h"
@@ -183,15 +183,16 @@ Result<int> run(const std::string& file, int count, unsigned seed) {
 }  // namespace oriel
 
 int main(int argc, char** argv) {
-  CLI::App app("What a pack's visible sets miss");
+  using namespace oriel;
   std::string file;
   int eyes = 10'000;
   unsigned seed = 1;
-  app.add_option("PACK", file)->required();
-  app.add_option("--eyes", eyes)->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  const auto code = oriel::run(file, eyes, seed);
+  if (const auto code = parse_options(argc, argv, "What a pack's visible sets miss",
+                                      {{"PACK", "Arguments", "With visible sets", text(file, "PACK"), Use::kRequired},
+                                       {"--eyes", "Options", "That look around", number(eyes, 1, 1e9)},
+                                       {"--seed", "Options", "Of where they are", number(seed, 0, 4294967295.0)}}))
+    return *code;
+  const auto code = run(file, eyes, seed);
   if (code) return *code;
   std::fprintf(stderr, "pvs_eyes: %s\n", code.error().text().c_str());
   return static_cast<int>(code.error().code);

@@ -37,22 +37,22 @@ TEST(OctahedralMap, DirectionsComeBack) {
 
 // Across an edge of the map lies the neighbouring direction.
 TEST(OctahedralMap, GoesOnOverItsEdges) {
-  constexpr int kSize = 16;
+  constexpr int kDirections = 16;
   const auto direction = [](const IVec2& at) {
-    return glm::normalize(direction_from_octahedral((Vec2(at) + 0.5f) / float(kSize) * 2.0f - 1.0f));
+    return glm::normalize(direction_from_octahedral((Vec2(at) + 0.5f) / float(kDirections) * 2.0f - 1.0f));
   };
-  const float step = 2.0f * 2 / kSize * 1.5f;  // near the corners of the octahedron's faces texels are the widest
-  for (int i = 0; i < kSize; ++i)
+  const float step = 2.0f * 2 / kDirections * 1.5f;  // near the corners of the octahedron's faces texels are the widest
+  for (int i = 0; i < kDirections; ++i)
     for (const auto& [inside, outside] : {std::pair(IVec2(0, i), IVec2(-1, i)),
                                           {{i, 0}, {i, -1}},
-                                          {{kSize - 1, i}, {kSize, i}},
-                                          {{i, kSize - 1}, {i, kSize}}}) {
-      const IVec2 other = wrap_octahedral(outside, kSize);
-      ASSERT_TRUE(other.x >= 0 && other.y >= 0 && other.x < kSize && other.y < kSize);
+                                          {{kDirections - 1, i}, {kDirections, i}},
+                                          {{i, kDirections - 1}, {i, kDirections}}}) {
+      const IVec2 other = wrap_octahedral(outside, kDirections);
+      ASSERT_TRUE(other.x >= 0 && other.y >= 0 && other.x < kDirections && other.y < kDirections);
       EXPECT_LT(glm::length(direction(other) - direction(inside)), step) << outside.x << " " << outside.y;
     }
-  EXPECT_EQ(wrap_octahedral({5, 6}, kSize), IVec2(5, 6));
-  EXPECT_EQ(wrap_octahedral({-1, -1}, kSize), IVec2(kSize - 1, kSize - 1));
+  EXPECT_EQ(wrap_octahedral({5, 6}, kDirections), IVec2(5, 6));
+  EXPECT_EQ(wrap_octahedral({-1, -1}, kDirections), IVec2(kDirections - 1, kDirections - 1));
 }
 
 TEST(Half, EveryFiniteCodeComesBack) {

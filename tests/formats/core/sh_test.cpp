@@ -1,17 +1,15 @@
 // formats/core/sh.h: against closed forms, against themselves, and against published coefficients.
 #include "formats/core/sh.h"
+#include "formats/core/json.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <random>
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::json;
 
 DVec3 random_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;
@@ -143,14 +141,14 @@ TEST(Sh, TheLeastWindowTakesAwayWhatRingsAndKeepsTheEnergy) {
 }
 
 // Published coefficients; their file is not part of the project.
-class ShCases : public testing::Test {
+class ShCases : public ::testing::Test {
  protected:
   void SetUp() override {
     const char* folder = std::getenv("ORIEL_VALIDATION");
     if (!folder) GTEST_SKIP() << "ORIEL_VALIDATION is not set";
     std::ifstream in(std::string(folder) + "/sh_prt.json");
     ASSERT_TRUE(in) << folder;
-    cases_ = Json::parse(in)["cases"];
+    cases_ = Json::parse(std::string(std::istreambuf_iterator<char>(in), {})).value()["cases"];
   }
   std::vector<Json> with_prefix(const std::string& prefix) const {
     std::vector<Json> found;
@@ -159,7 +157,7 @@ class ShCases : public testing::Test {
     EXPECT_FALSE(found.empty()) << prefix;
     return found;
   }
-  static DVec3 vec(const Json& j) { return {j[0], j[1], j[2]}; }
+  static DVec3 vec(const Json& j) { return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()}; }
   static void expect_near(std::span<const double> found, const Json& expected, double tolerance) {
     for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i].get<double>(), tolerance) << i;
   }
@@ -168,9 +166,9 @@ class ShCases : public testing::Test {
 
 TEST_F(ShCases, CosineFactors) {
   for (const Json& c : with_prefix("SH-cos")) {
-    const double tolerance = c["tolerance"]["abs"];
+    const double tolerance = c["tolerance"]["abs"].get<double>();
     for (std::size_t i = 0; i < c["inputs"]["l"].size(); ++i)
-      EXPECT_NEAR(cosine_factor(c["inputs"]["l"][i]), c["expected"]["A_l"][i].get<double>(), tolerance);
+      EXPECT_NEAR(cosine_factor(c["inputs"]["l"][i].get<int>()), c["expected"]["A_l"][i].get<double>(), tolerance);
     if (!c["inputs"].contains("n")) continue;
     std::vector<double> zonal(4), turned(16);
     for (int l = 0; l < 4; ++l)
@@ -184,13 +182,13 @@ TEST_F(ShCases, DirectionsAndCaps) {
   for (const Json& c : with_prefix("SH-dir")) {
     std::vector<double> y(25);
     evaluate_sh(vec(c["inputs"]["direction"]), y);
-    expect_near(y, c["expected"]["L_lm"], c["tolerance"]["abs"]);
+    expect_near(y, c["expected"]["L_lm"], c["tolerance"]["abs"].get<double>());
   }
   for (const Json& c : with_prefix("SH-disk"))
     for (const auto& [degrees, expected] : c["expected"]["L_l0"].items())
       for (int l = 0; l < static_cast<int>(expected.size()); ++l)
         EXPECT_NEAR(cap_coefficient(l, std::stod(degrees) * kPiD / 180),
-                    expected[static_cast<std::size_t>(l)].get<double>(), c["tolerance"]["abs"]);
+                    expected[static_cast<std::size_t>(l)].get<double>(), c["tolerance"]["abs"].get<double>());
 }
 
 TEST_F(ShCases, Rotations) {
@@ -198,16 +196,17 @@ TEST_F(ShCases, Rotations) {
     DMat3 rotation;
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
-        rotation[column][row] = c["inputs"]["R"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+        rotation[column][row] =
+            c["inputs"]["R"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)].get<double>();
     const auto from = c["inputs"]["c"].get<std::vector<double>>();
     std::vector<double> turned(from.size());
     ShRotation(rotation, 5).apply(from, std::span(turned));
-    expect_near(turned, c["expected"]["c_rotated"], c["tolerance"]["abs"]);
+    expect_near(turned, c["expected"]["c_rotated"], c["tolerance"]["abs"].get<double>());
   }
 }
 
 // ∫ Y_i Y_j Y_k dω of three bands, by a rule that is exact for them: four Gauss points by eight.
-double triple_product(const std::array<int, 3>& of) {
+double triple_product(const std::vector<int>& of) {
   double sum = 0;
   std::array<double, 9> y;
   for (const double sign : {-1.0, 1.0}) {
@@ -227,8 +226,8 @@ double triple_product(const std::array<int, 3>& of) {
 TEST_F(ShCases, Triples) {
   for (const Json& c : with_prefix("SH-triple"))
     for (std::size_t n = 0; n < c["inputs"]["entries"].size(); ++n)
-      EXPECT_NEAR(triple_product(c["inputs"]["entries"][n].get<std::array<int, 3>>()),
-                  c["expected"]["values"][n].get<double>(), c["tolerance"]["abs"]);
+      EXPECT_NEAR(triple_product(c["inputs"]["entries"][n].get<std::vector<int>>()),
+                  c["expected"]["values"][n].get<double>(), c["tolerance"]["abs"].get<double>());
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // Exported scenes: what our own importer reads back, the bytes' own rules, and the light that is baked into textures.
 #include "formats/export/scene_glb.h"
+#include "formats/core/json.h"
 
 #include <gmock/gmock.h>
 
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "bake/import/import.h"
 #include "formats/assets/bilinear.h"
@@ -26,11 +26,11 @@ Scene imported(const Bytes& glb) {
   return scene ? std::move(scene->scene) : Scene{};
 }
 
-nlohmann::json json_of(const Bytes& glb) {
+Json json_of(const Bytes& glb) {
   std::uint32_t size = 0;
   std::memcpy(&size, glb.data() + 12, 4);
   const auto* text = reinterpret_cast<const char*>(glb.data() + 20);
-  return nlohmann::json::parse(text, text + size);
+  return Json::parse({text, size}).value();
 }
 
 TEST(SceneGlb, OurImporterReadsTheSameScene) {
@@ -97,7 +97,8 @@ TEST(SceneGlb, EmissiveMaterialsReflectNothing) {
     EXPECT_GE(m.emission_texture.image, 0);
     EXPECT_EQ(m.emission_texture.texcoord, 1);
   }
-  EXPECT_FLOAT_EQ(json_of(exported->file)["asset"]["extras"]["oriel"]["white_cd_m2"], exported->white_cd_m2);
+  EXPECT_FLOAT_EQ(json_of(exported->file)["asset"]["extras"]["oriel"]["white_cd_m2"].get<double>(),
+                  exported->white_cd_m2);
   EXPECT_GT(exported->white_cd_m2, 0);
 }
 

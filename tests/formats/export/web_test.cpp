@@ -1,9 +1,8 @@
 // Packs in pieces, and the folder that shows them. The viewer's own tests need node and Chromium: viewer_test.
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/export/pieces.h"
 #include "formats/export/sha256.h"
 #include "formats/export/web_folder.h"
@@ -77,7 +76,7 @@ TEST(WebFolder, NamesItsFilesByTheirHashes) {
   EXPECT_THAT(page, HasSubstr("default-src 'none'; script-src 'self'"));
   EXPECT_THAT(page, Not(HasSubstr("{{")));
   EXPECT_THAT(page, HasSubstr(integrity_of(bytes_of_text(manifest))));
-  const nlohmann::json told = nlohmann::json::parse(manifest);
+  const Json told = Json::parse(manifest).value();
   for (const auto& piece : told["pieces"]) {
     const auto bytes = read_file(folder.path() / "a" / "b" / piece["file"].get<std::string>());
     ASSERT_TRUE(bytes);

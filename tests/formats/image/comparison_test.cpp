@@ -1,9 +1,8 @@
 // A frame beside its reference: regions, components, noise, and references that are none.
 #include "formats/image/comparison.h"
+#include "formats/core/json.h"
 
 #include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
 
 namespace oriel {
 namespace {
@@ -68,15 +67,15 @@ TEST(Comparison, TellsComponentsAndRegionsApart) {
   EXPECT_NEAR(c.regions[0].total.rel_rmse, std::sqrt(0.5) / 6 / dark, 1e-6);
   EXPECT_GT(c.regions[2].flip, c.regions[0].flip);
   EXPECT_EQ(c.regions[3].total.rel_rmse, 0);
-  const auto json = nlohmann::json::parse(comparison_json(c));
-  EXPECT_NEAR(json["regions"]["mirrors"]["S"]["relRMSE"], 0.5 / dark, 1e-6);
+  const auto json = Json::parse(comparison_json(c)).value();
+  EXPECT_NEAR(json["regions"]["mirrors"]["S"]["relRMSE"].get<double>(), 0.5 / dark, 1e-6);
   EXPECT_EQ(json["holes"], 0.25);
   EXPECT_NE(comparison_text(c).find("25.000 %"), std::string::npos);
   EXPECT_NE(comparison_text(c).find("mirrors"), std::string::npos);
   EXPECT_FALSE(json.contains("sharp")) << "not known";
   frame.sharp = 0.75;
   const Comparison measured = *compare(frame, reference(), 0);
-  EXPECT_EQ(nlohmann::json::parse(comparison_json(measured))["sharp"], 0.75);
+  EXPECT_EQ(Json::parse(comparison_json(measured)).value()["sharp"], 0.75);
   EXPECT_NE(comparison_text(measured).find("sharp: 75.000 %"), std::string::npos);
 }
 

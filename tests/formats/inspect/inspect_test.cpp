@@ -4,10 +4,10 @@
 
 #include <cstdio>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
 #include "formats/pack/index.h"
@@ -121,7 +121,7 @@ TEST_F(Inspect, InfoForPeople) {
 TEST_F(Inspect, InfoForPrograms) {
   const Outcome info = run("info --json " + pack_.string());
   ASSERT_EQ(info.code, 0) << info.err;
-  const auto json = nlohmann::json::parse(info.out);
+  const auto json = Json::parse(info.out).value();
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["mesh"]["triangles"], 4);
   EXPECT_EQ(json["provenance"]["seed"], 7);
@@ -151,7 +151,7 @@ TEST_F(Inspect, AcceptsAValidPack) {
   EXPECT_EQ(valid.out, "valid\n");
   const Outcome json = run("validate --json " + pack_.string());
   EXPECT_EQ(json.code, 0);
-  EXPECT_EQ(nlohmann::json::parse(json.out)["valid"], true);
+  EXPECT_EQ(Json::parse(json.out).value()["valid"], true);
 }
 
 TEST_F(Inspect, DamageNamesEverySection) {
@@ -161,7 +161,7 @@ TEST_F(Inspect, DamageNamesEverySection) {
   EXPECT_EQ(text.code, 3);
   EXPECT_NE(text.out.find("error 1: section LMAP 0 (lightmap page): checksum "), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("error 1: section MESH (mesh): checksum "), std::string::npos) << text.out;
-  const auto json = nlohmann::json::parse(run("validate --json " + pack_.string()).out);
+  const auto json = Json::parse(run("validate --json " + pack_.string()).out).value();
   EXPECT_EQ(json["valid"], false);
   EXPECT_EQ(json["issues"].size(), 2u);
   for (const char* command : {"info", "extract -o x"}) {
@@ -190,7 +190,7 @@ TEST_F(Inspect, ExtractsEveryMap) {
   ASSERT_EQ(extract.code, 0) << extract.err;
   const auto pack = read_pack(pack_);
   ASSERT_TRUE(pack);
-  const auto index = nlohmann::json::parse(slurp(to / "index.json"));
+  const auto index = Json::parse(slurp(to / "index.json")).value();
   std::size_t files = 0;
   const auto count = [&](const auto& entry) {
     for (const auto& [role, name] : entry["files"].items()) {
@@ -244,7 +244,7 @@ TEST_F(Inspect, ExtractsOneKind) {
   ASSERT_EQ(run("extract --kind lightmap -o " + to.string() + " " + pack_.string()).code, 0);
   EXPECT_TRUE(std::filesystem::exists(to / "lightmap_000.exr"));
   EXPECT_FALSE(std::filesystem::exists(to / "brdf_kernel_00.exr"));
-  EXPECT_EQ(nlohmann::json::parse(slurp(to / "index.json"))["entries"].size(), 1u);
+  EXPECT_EQ(Json::parse(slurp(to / "index.json")).value()["entries"].size(), 1u);
 }
 
 TEST_F(Inspect, ReportsAndExports) {
@@ -287,10 +287,10 @@ TEST_F(Inspect, WhySaysWhatLightsAPlace) {
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_NE(text.out.find("on 'floor', material 'polished'"), std::string::npos) << text.out;
   const Outcome json = run("why " + pack_.string() + " --json " + at);
-  const auto parsed = nlohmann::json::parse(json.out, nullptr, false);
+  const auto parsed = Json::parse(json.out).value_or(Json());
   ASSERT_TRUE(parsed.is_object()) << json.out;
   EXPECT_EQ(parsed["surface"], "floor");
-  EXPECT_EQ(parsed["texel"], nlohmann::json({2, 0}));
+  EXPECT_EQ(parsed["texel"], Json({2, 0}));
   EXPECT_EQ(run("why " + pack_.string() + " --at 0,900,0").code, 3);
   EXPECT_EQ(run("why " + pack_.string() + " --at here").code, 1);
   EXPECT_EQ(run("why " + pack_.string()).code, 1);

@@ -47,7 +47,7 @@ struct Hall {
   }
 };
 
-MoverPose shifted(const Vec3& by) {
+MoverPose moved_by(const Vec3& by) {
   MoverPose pose;
   pose.position = by;
   return pose;
@@ -57,7 +57,7 @@ MoverPose shifted(const Vec3& by) {
 TEST(EmitterViews, AreWhatThePlateLeavesOfTheLamp) {
   const Hall hall;
   for (const auto& [shift, half] : {std::pair(0, 2), {1, 1}, {-1, 3}}) {
-    const auto views = hall.views(shifted(Vec3(shift, 0, 0)), 0.3f);
+    const auto views = hall.views(moved_by(Vec3(shift, 0, 0)), 0.3f);
     ASSERT_EQ(views.size(), 1u);
     EXPECT_EQ(views[0].polygons, (std::vector<std::uint32_t>{0}));
     ASSERT_EQ(std::pair(views[0].x, views[0].y), std::pair(5u, 5u));
@@ -78,7 +78,7 @@ TEST(EmitterViews, LeaveLampsSeenInPartToNarrowLobes) {
   const Hall hall;
   EXPECT_EQ(hall.views({}, 0.3f).size(), 1u);
   EXPECT_TRUE(hall.views({}, 0.01f).empty());
-  EXPECT_EQ(hall.views(shifted({5, 0, 0}), 0.01f).size(), 1u) << "seen whole from everywhere";
+  EXPECT_EQ(hall.views(moved_by({5, 0, 0}), 0.01f).size(), 1u) << "seen whole from everywhere";
   EXPECT_NEAR(parted(0.5, 1e-6, 0.3), 0, 1e-5);
   EXPECT_NEAR(parted(0.5, 1, 1e-4), 0.5, 1e-5);
   EXPECT_EQ(parted(0.5, 0, 0.1), 0);
@@ -88,7 +88,7 @@ TEST(EmitterViews, AreNoneOfWhatDoesNotLightTheReflector) {
   Hall hall;
   EXPECT_TRUE(hall.views({}, 0).empty()) << "a mirror's image has it";
   EXPECT_EQ(hall.views({}, 0, 0).size(), 1u) << "but for a point's glint";
-  EXPECT_TRUE(hall.views(shifted({0, -3, 0}), 0.3f).empty()) << "under the floor";
+  EXPECT_TRUE(hall.views(moved_by({0, -3, 0}), 0.3f).empty()) << "under the floor";
   EXPECT_TRUE(hall.views({}, 0.3f, 7).empty()) << "another reflector's";
   MoverPose turned;
   turned.rotation = Vec4(1, 0, 0, 0);  // upside down, at y = -2

@@ -52,7 +52,7 @@ Occluders some_boxes(double size) {
   return {scene.points, scene.triangles};
 }
 
-class LightSums : public testing::TestWithParam<double> {};
+class LightSums : public ::testing::TestWithParam<double> {};
 
 TEST_P(LightSums, AreThoseOfEverySample) {
   const double scale = GetParam();
@@ -74,7 +74,7 @@ TEST_P(LightSums, AreThoseOfEverySample) {
     EXPECT_LT(error_of(receiver, light, boxes, best_simd()), 2e-6) << samples;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Scales, LightSums, testing::Values(1e-4, 1.0, 1e6));
+INSTANTIATE_TEST_SUITE_P(Scales, LightSums, ::testing::Values(1e-4, 1.0, 1e6));
 
 // Herf 1997, section 3.2: the projective matrix that takes the pyramid from `apex` over the receiver to a box. Along x
 // and y it is 0 to 1 over the receiver. z is 1 in its plane, grows towards the apex and is infinite there. All apexes

@@ -12,7 +12,7 @@ constexpr std::array kMethods{CountMethod::kImages, CountMethod::kSpanBuffers, C
 
 // All methods alike and, for each instruction set that there is, as rays have it. Texels that an edge touches count as
 // neither.
-Compared check(const ShadowScene& scene) {
+Compared check_volumes(const ShadowScene& scene) {
   const Occluders occluders(scene.points, scene.triangles);
   std::vector<std::uint16_t> first;
   Compared compared;
@@ -60,7 +60,7 @@ TEST(ShadowRays, RandomTriangles) {
                 middle + place(random, DVec3(-9, -9, -3), DVec3(9, 9, 3)),
                 middle + place(random, DVec3(-9, -9, -3), DVec3(9, 9, 3)));
     }
-    EXPECT_GT(check(scene).blocked, 300u);
+    EXPECT_GT(check_volumes(scene).blocked, 300u);
   }
 }
 
@@ -74,7 +74,7 @@ TEST(ShadowRays, AcrossTheLightsPlaneAndBehindTheReceiver) {
       scene.add(place(random, DVec3(-20, -20, -40), DVec3(80, 60, 70)),
                 place(random, DVec3(-20, -20, -40), DVec3(80, 60, 70)),
                 place(random, DVec3(-20, -20, -40), DVec3(80, 60, 70)));
-    check(scene);
+    check_volumes(scene);
   }
 }
 
@@ -84,7 +84,7 @@ TEST(ShadowRays, ALightThatStandsOnEdgeToTheReceiver) {
   for (ShadowLightSample& s : scene.light.samples) s.position = round(s.position);
   scene.add_box({10, 10, 4}, {20, 20, 14});
   scene.add_box({-4, 12, 2}, {2, 18, 40});
-  EXPECT_GT(check(scene).blocked, 1000u);
+  EXPECT_GT(check_volumes(scene).blocked, 1000u);
 }
 
 TEST(ShadowRays, EdgesThroughCentres) {
@@ -94,7 +94,7 @@ TEST(ShadowRays, EdgesThroughCentres) {
   // Half-way up: a vertex at 21.5 is seen at 11.5, the centre of a texel; so are whole edges.
   scene.add({21.5, 10.5, 20}, {41.5, 10.5, 20}, {41.5, 30.5, 20});
   scene.add({21.5, 10.5, 20}, {41.5, 30.5, 20}, {21.5, 30.5, 20});
-  const Compared c = check(scene);
+  const Compared c = check_volumes(scene);
   EXPECT_GT(c.touched, 100u);
   // Each centre on the rim belongs to one side: left and upper edges are in, right and lower ones out, and none leaks
   // between the two triangles.
@@ -106,12 +106,12 @@ TEST(ShadowRays, AllNoneAndNoOccluders) {
     ShadowScene scene{.texels = {33, 17}};
     scene.light_over({5, 5, 30}, {20, 8, 0}, samples);
     ASSERT_EQ(scene.light.samples.size(), static_cast<std::size_t>(samples));
-    EXPECT_EQ(check(scene).blocked, 0u);
+    EXPECT_EQ(check_volumes(scene).blocked, 0u);
     ShadowScene beside = scene;
     beside.add_box({200, 200, 5}, {220, 220, 10});
-    EXPECT_EQ(check(beside).blocked, 0u);
+    EXPECT_EQ(check_volumes(beside).blocked, 0u);
     scene.add({-500, -500, 10}, {900, -500, 10}, {0, 900, 10});
-    EXPECT_EQ(check(scene).blocked, static_cast<std::size_t>(33 * 17 * samples));
+    EXPECT_EQ(check_volumes(scene).blocked, static_cast<std::size_t>(33 * 17 * samples));
   }
 }
 
@@ -122,7 +122,7 @@ TEST(ShadowRays, OpenMeshesAndMoreThanTwoFacesOnAnEdge) {
     scene.add({20, 20, 15}, {30, 22, 20}, tip);
   scene.add_box({40, 30, 10}, {50, 40, 20});
   scene.triangles.erase(scene.triangles.end() - 3);  // a box with a hole
-  EXPECT_GT(check(scene).blocked, 1000u);
+  EXPECT_GT(check_volumes(scene).blocked, 1000u);
 }
 
 TEST(ShadowRays, TouchingCoplanarAndDoubledOccluders) {
@@ -135,14 +135,14 @@ TEST(ShadowRays, TouchingCoplanarAndDoubledOccluders) {
   scene.add_box({20, 10, 0}, {25, 20, 10});         // shares a face with the first
   scene.add_box({10, 30, 8}, {20, 40, 12}), scene.add_box({10, 30, 8}, {20, 40, 12});
   scene.add({5, 5, 10}, {5, 5, 10}, {9, 9, 10});  // no area
-  EXPECT_GT(check(scene).blocked, 1000u);
+  EXPECT_GT(check_volumes(scene).blocked, 1000u);
 }
 
 TEST(ShadowRays, ASampleInsideABody) {
   ShadowScene scene;
   scene.light_over({20, 20, 30}, {12, 1, 0}, 4);
   scene.add_box({24, 10, 20}, {40, 40, 40});  // holds some of the samples
-  const Compared c = check(scene);
+  const Compared c = check_volumes(scene);
   EXPECT_GT(c.blocked, 64u * 48u);
   EXPECT_LT(c.blocked, 4u * 64u * 48u);
 }

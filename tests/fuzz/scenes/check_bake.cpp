@@ -16,8 +16,6 @@
 
 namespace oriel::fuzz {
 
-using namespace nlohmann::literals;
-
 namespace {
 
 constexpr double kMostBounces = 4096;  // after which paths and sweeps give up (bake/trace/path.h)
@@ -52,15 +50,14 @@ std::vector<std::string> check_files(const std::filesystem::path& pack, const st
                                      const RandomScene& scene) {
   const auto text = read_file(report);
   if (!text) return {text.error().text()};
-  const Json json = Json::parse(reinterpret_cast<const char*>(text->data()),
-                                reinterpret_cast<const char*>(text->data() + text->size()), nullptr, false);
+  const auto json = Json::parse(*text);
   std::vector<std::string> wrong;
-  if (json.is_discarded()) wrong.emplace_back("the report is no JSON");
+  if (!json) wrong.emplace_back("the report is no JSON");
   const auto read = read_pack(pack);  // with every rule of the format, which want finite numbers
   if (!read) wrong.push_back(read.error().text());
-  if (read && !json.is_discarded()) {
+  if (read && json) {
     // Beside a dome of many kilometres texels are larger than whole parts, and hold only what there is of these.
-    const double texel_m = json.value("/plan/atlas/texel_m"_json_pointer, 1e-3) / unit_of(*read, scene.area_m2);
+    const double texel_m = (*json)["plan"]["atlas"].value("texel_m", 1e-3) / unit_of(*read, scene.area_m2);
     const double bound = irradiance_bound(scene.sources, std::min(texel_m, kDetail * scene.scale));
     const auto more = check_pack_numbers(*read, bound);
     wrong.insert(wrong.end(), more.begin(), more.end());

@@ -4,8 +4,7 @@
 // What fails stays in FOLDER/seed-N. Exit code 1 where something does.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
+#include "formats/cli/command.h"
 #include "formats/core/file.h"
 #include "tests/fuzz/scenes/check_bake.h"
 
@@ -69,20 +68,24 @@ bool holds(const Options& options, std::uint64_t seed) {
 }
 
 int main_of_fuzz(int argc, char** argv) {
-  CLI::App app("Bakes random scenes and holds the baker to what it promises of any scene.");
   Options options;
   std::uint64_t write = 0;
-  app.add_option("--bake", options.bake, "oriel-bake")->required();
-  app.add_option("--work", options.work, "A folder for scenes that fail");
-  app.add_option("--first", options.first, "The first seed");
-  app.add_option("--count", options.count, "So many seeds");
-  app.add_option("--time", options.limits.time_s, "Of each bake, s");
-  app.add_option("--late", options.limits.late_s, "By which that may be missed, beside a tenth of it, s");
-  app.add_option("--memory", options.limits.memory_MiB, "At most so much, MiB");
-  app.add_flag("--by-cpu", options.limits.by_cpu, "Time is that of all threads over the cores: other work is done too");
-  app.add_flag("--shrink", options.shrink, "Leave parts out of what fails");
-  app.add_option("--write", write, "Write that seed's scene to the work folder, and bake nothing");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto code =
+          parse_options(argc, argv, "Bakes random scenes and holds the baker to what it promises of any scene.",
+                        {{"--bake", "Options", "oriel-bake", path(options.bake, "FILE"), Use::kRequired},
+                         {"--work", "Options", "A folder for scenes that fail", path(options.work, "DIR")},
+                         {"--first", "Options", "The first seed", number(options.first, 0, 18446744073709551615.0)},
+                         {"--count", "Options", "So many seeds", number(options.count, 0, 1e18)},
+                         {"--time", "Options", "Of each bake, s", number(options.limits.time_s, 0, 1e9)},
+                         {"--late", "Options", "By which that may be missed, beside a tenth of it, s",
+                          number(options.limits.late_s, 0, 1e9)},
+                         {"--memory", "Options", "At most so much, MiB", number(options.limits.memory_MiB, 0, 1e9)},
+                         {"--by-cpu", "Options", "Time is that of all threads over the cores: other work is done too",
+                          flag(options.limits.by_cpu)},
+                         {"--shrink", "Options", "Leave parts out of what fails", flag(options.shrink)},
+                         {"--write", "Options", "Write that seed's scene to the work folder, and bake nothing",
+                          number(write, 0, 18446744073709551615.0)}}))
+    return *code;
   if (write > 0) {
     fs::create_directories(options.work);
     const fs::path file = options.work / fmt::format("seed-{}.glb", write);

@@ -1,16 +1,14 @@
 // A glTF file in the making. Unlike the sample scenes' writer it checks nothing: what it is for is odd, but valid.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 
 #include "formats/core/bytes.h"
+#include "formats/core/json.h"
 #include "formats/core/vec.h"
 
 namespace oriel::fuzz {
-
-using Json = nlohmann::ordered_json;
 
 // Triangles of one primitive. What is empty is left out of the file; the other arrays are as long as positions.
 struct Primitive {

@@ -176,7 +176,7 @@ std::vector<Vec4> run_shader(const std::string& library, const std::string& body
   return values;
 }
 
-class SharedMaths : public testing::Test {
+class SharedMaths : public ::testing::Test {
  protected:
   void SetUp() override {
     context_ = std::move(*gpu::HeadlessContext::create());

@@ -1,26 +1,15 @@
 // The program itself: a limit of memory, broken packs and files that change under the window.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "formats/core/file.h"
+#include "formats/core/json.h"
 #include "formats/pack/index.h"
-#include "formats/pack/writer.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/tiny_pack.h"
+#include "tests/support/play_program.h"
 
 namespace oriel {
 namespace {
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int code = -1;
-  std::string out;  // stdout and stderr together
-};
+using namespace testing;
 
 // A page of more than one block of zstd, so that its damage is not met when the pack is opened.
 Pack pack_with_a_large_page() {
@@ -39,31 +28,10 @@ Pack pack_with_a_large_page() {
   return pack;
 }
 
-class PlayLoading : public ::testing::Test {
+class PlayLoading : public PlayWindow {
  protected:
+  // Not PlayWindow's, which skips all where there is no virtual display.
   void SetUp() override { ASSERT_TRUE(write_pack(folder() / "tiny.oriel", pack_with_a_large_page())); }
-  fs::path folder() const { return folder_.path(); }
-
-  // In the folder, with $PLAY.
-  Outcome shell(const std::string& command) {
-    const std::string program = (fs::path(ORIEL_BIN_DIR) / "oriel-play").string();
-    const int status = std::system(
-        ("cd '" + folder().string() + "' && PLAY='" + program + "' && { " + command + "; } > log 2>&1").c_str());
-    std::ifstream in(folder() / "log");
-    std::stringstream text;
-    text << in.rdbuf();
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text.str()};
-  }
-  Outcome run(const std::string& arguments) {
-    return shell("env -u DISPLAY -u WAYLAND_DISPLAY \"$PLAY\" " + arguments);
-  }
-  Outcome in_display(const std::string& script) {
-    std::ofstream(folder() / "script.sh") << script;
-    return shell("export PLAY; xvfb-run -a -s '-screen 0 640x480x24 -noreset' bash script.sh");
-  }
-  static bool has_display() {
-    return std::system("command -v xvfb-run >/dev/null && command -v xdotool >/dev/null") == 0;
-  }
   void damage_the_page() {
     const fs::path path = folder() / "tiny.oriel";
     Bytes file = *read_file(path);
@@ -72,14 +40,6 @@ class PlayLoading : public ::testing::Test {
       if (section.kind == kLightmapSection) file[section.offset + section.stored_bytes - 1] ^= std::byte{1};
     ASSERT_TRUE(write_file_atomically(path, file));
   }
-  static ::testing::AssertionResult ends(const Outcome& r, int code, const std::string& says) {
-    if (r.code == code && r.out.find(says) != std::string::npos) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << "exit " << r.code << ", expected " << code << " and '" << says
-                                         << "' in: " << r.out;
-  }
-
- private:
-  testing::TemporaryFolder folder_;
 };
 
 TEST_F(PlayLoading, AMemoryLimitIsHeldAndTold) {
@@ -88,13 +48,13 @@ TEST_F(PlayLoading, AMemoryLimitIsHeldAndTold) {
         << bad;
   ASSERT_TRUE(ends(run("tiny.oriel --offscreen -o a.png --gpu-memory 1GiB --stats a.json"), 0, "a.png"));
   ASSERT_TRUE(ends(run("tiny.oriel --offscreen -o b.png --gpu-memory 100B --stats b.json"), 0, "left out"));
-  const auto whole = nlohmann::json::parse(std::ifstream(folder() / "a.json"))["frames"][0];
+  const auto whole = Json::parse(*read_file(folder() / "a.json")).value()["frames"][0];
   EXPECT_EQ(whole["coarser_images"], 0);
-  EXPECT_GT(whole["image_bytes"], 100);
-  const auto limited = nlohmann::json::parse(std::ifstream(folder() / "b.json"));
+  EXPECT_GT(whole["image_bytes"].get<double>(), 100);
+  const auto limited = Json::parse(*read_file(folder() / "b.json")).value();
   EXPECT_EQ(limited["options"]["gpu_memory"], 100);
-  EXPECT_LE(limited["frames"][0]["most_image_bytes"], 100);
-  EXPECT_GT(limited["frames"][0]["missing_images"], 0);
+  EXPECT_LE(limited["frames"][0]["most_image_bytes"].get<double>(), 100);
+  EXPECT_GT(limited["frames"][0]["missing_images"].get<double>(), 0);
 }
 
 TEST_F(PlayLoading, OffscreenABrokenPageIsAnError) {
@@ -115,15 +75,12 @@ TEST_F(PlayLoading, TheWindowTellsABrokenPageAndStays) {
 // Cut in place while it is shown, which would end who looks at a mapping; F5 then says why it cannot be shown again.
 TEST_F(PlayLoading, AFileThatIsCutUnderTheWindow) {
   if (!has_display()) GTEST_SKIP() << "xvfb-run or xdotool is not installed";
-  const Outcome r = in_display(R"(
-"$PLAY" tiny.oriel --size 160x90 & pid=$!
-window=$(timeout 30 xdotool search --sync --onlyvisible --pid $pid --name Oriel | head -1)
+  const Outcome r = in_display(std::string(kOpen) + R"(
 truncate -s 1000 tiny.oriel
-xdotool windowfocus "$window"; sleep 0.5
+xdotool windowfocus "$window"; wait_for ready
 kill -0 $pid && echo "still there"
-xdotool key --window "$window" F5; sleep 0.5
-xdotool key --window "$window" Escape
-wait $pid
+key F5
+quit
 )");
   EXPECT_TRUE(ends(r, 0, "still there"));
   EXPECT_NE(r.out.find("not loaded again"), std::string::npos) << r.out;

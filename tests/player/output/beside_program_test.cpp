@@ -103,18 +103,12 @@ TEST_F(BesideWindow, KeysAndTheDividerChooseWhatIsSeen) {
   std::string start = kStart;
   start.replace(start.find("tiny.oriel"), 10, "tiny.oriel dark.oriel --camera 0 --exposure 5");
   const Outcome r = in_display(start + R"(
-key() { xdotool key --window "$window" "$@"; sleep 0.3; }
-shot() { xdotool key --window "$window" F12; for i in $(seq 50); do [ -f $1 ] && break; sleep 0.1; done; }
-shot oriel-000.png
-key v; shot oriel-001.png
-key v; shot oriel-002.png
-key b
-xdotool mousemove --window "$window" 80 30; sleep 0.3; xdotool mousedown 1; sleep 0.3
-xdotool mousemove --window "$window" 20 30; sleep 0.3; xdotool mouseup 1; sleep 0.3
-shot oriel-003.png
-key n; sleep 1.5; shot oriel-004.png
-key Escape
-wait $pid
+key F12
+key v; key F12
+key v; key F12
+key b; drag 80 30 20 30; key F12
+key n; wait_for shows 'flip=*'; key F12
+quit
 )");
   ASSERT_TRUE(ends(r, 0, "oriel-004.png"));
   std::vector<std::vector<std::uint8_t>> shots;

@@ -9,7 +9,7 @@ namespace {
 
 using testing::FrameTest;
 
-constexpr std::uint32_t kFrames = 256;
+constexpr std::uint32_t kExposedFrames = 256;
 
 TEST(Exposed, PointsAreEvenOverPixelLensAndTime) {
   const ExposurePoint alone = exposure_point(0, 1);
@@ -18,10 +18,11 @@ TEST(Exposed, PointsAreEvenOverPixelLensAndTime) {
   EXPECT_EQ(alone.time, 0);
   Vec2 pixel(0), lens(0), squares(0);
   float time = 0, radius2 = 0;
-  for (std::uint32_t i = 0; i < kFrames; ++i) {
-    const ExposurePoint p = exposure_point(i, kFrames);
-    pixel += p.pixel / float{kFrames}, lens += p.lens / float{kFrames}, time += p.time / float{kFrames};
-    squares += p.pixel * p.pixel / float{kFrames}, radius2 += glm::dot(p.lens, p.lens) / float{kFrames};
+  for (std::uint32_t i = 0; i < kExposedFrames; ++i) {
+    const ExposurePoint p = exposure_point(i, kExposedFrames);
+    pixel += p.pixel / float{kExposedFrames}, lens += p.lens / float{kExposedFrames},
+        time += p.time / float{kExposedFrames};
+    squares += p.pixel * p.pixel / float{kExposedFrames}, radius2 += glm::dot(p.lens, p.lens) / float{kExposedFrames};
     EXPECT_LE(glm::length(p.lens), 1);
   }
   EXPECT_LT(glm::length(pixel), 0.02f);
@@ -77,8 +78,8 @@ class ExposedEdge : public FrameTest {
     auto scene = GpuScene::create(pack, device_);
     EXPECT_TRUE(scene);
     FrameMean mean;
-    for (std::uint32_t i = 0; i < kFrames; ++i) {
-      EXPECT_TRUE(renderer_->render(**scene, view_at(exposure_point(i, kFrames), (*scene)->bounds()), {}));
+    for (std::uint32_t i = 0; i < kExposedFrames; ++i) {
+      EXPECT_TRUE(renderer_->render(**scene, view_at(exposure_point(i, kExposedFrames), (*scene)->bounds()), {}));
       mean.add(renderer_->read_frame());
     }
     const FloatImage picture = mean.mean();

@@ -6,7 +6,7 @@ namespace oriel {
 namespace {
 using namespace testing;
 
-constexpr int kSize = 64;
+constexpr int kEdgeSize = 64;
 constexpr float kLamp = 100, kWall = 0.5f;  // cd/m²
 
 // A lamp, turned by 20°, before a wall that fills the view.
@@ -56,8 +56,8 @@ class Antialias : public FrameTest {
 };
 
 TEST_F(Antialias, EdgesAreMeans) {
-  const Counts plain = count(draw(lamp_before_wall(), facing_camera(), kSize, kSize, sampled(1)));
-  const Counts smooth = count(draw(lamp_before_wall(), facing_camera(), kSize, kSize, sampled(4)));
+  const Counts plain = count(draw(lamp_before_wall(), facing_camera(), kEdgeSize, kEdgeSize, sampled(1)));
+  const Counts smooth = count(draw(lamp_before_wall(), facing_camera(), kEdgeSize, kEdgeSize, sampled(4)));
   EXPECT_EQ(plain.between, 0);
   EXPECT_GT(plain.lamp, 100);
   EXPECT_GT(smooth.between, edge(40));  // about a pixel for each one that the outline crosses
@@ -67,7 +67,7 @@ TEST_F(Antialias, EdgesAreMeans) {
 
 TEST_F(Antialias, ALampsEdgeIsShownBetweenWallAndWhite) {
   // 100 cd/m² where 1 is white: were light averaged before the tone curve, every pixel of the edge would be white.
-  (void)draw(lamp_before_wall(), facing_camera(), kSize, kSize, sampled(4));
+  (void)draw(lamp_before_wall(), facing_camera(), kEdgeSize, kEdgeSize, sampled(4));
   const auto shown = renderer_->read_display(exposure_of_white(1), ToneCurve::kNone);
   ASSERT_TRUE(shown) << shown.error().text();
   const auto wall = static_cast<int>(std::lround(255 * srgb_from_linear(kWall)));
@@ -97,12 +97,12 @@ TEST_F(Antialias, LightIsReadInsideOfCharts) {
     uv = (static_cast<float>(kFirst) + 0.5f + uv * static_cast<float>(kEnd - kFirst - 1)) / static_cast<float>(kPage);
   Camera camera;
   camera.eye = {0, 0.1f, 2};
-  const Picture plain = draw(pack, camera, kSize, kSize, sampled(1));
-  const Picture smooth = draw(pack, camera, kSize, kSize, sampled(4));
+  const Picture plain = draw(pack, camera, kEdgeSize, kEdgeSize, sampled(1));
+  const Picture smooth = draw(pack, camera, kEdgeSize, kEdgeSize, sampled(4));
   int floor = 0;
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
-      if (plain.at(x, y).g < 0.49f || y + 1 == kSize) continue;
+  for (int y = 0; y < kEdgeSize; ++y)
+    for (int x = 0; x < kEdgeSize; ++x) {
+      if (plain.at(x, y).g < 0.49f || y + 1 == kEdgeSize) continue;
       floor += 1;
       if (y == 0 || plain.at(x, y - 1).g < 0.49f || plain.at(x, y + 1).g < 0.49f) continue;  // the horizon
       EXPECT_NEAR(smooth.at(x, y).g, 0.5f, 0.002f) << x << ' ' << y;
@@ -111,7 +111,7 @@ TEST_F(Antialias, LightIsReadInsideOfCharts) {
 }
 
 TEST_F(Antialias, NoMoreSamplesThanTheDeviceHas) {
-  const Picture most = draw(lamp_before_wall(), facing_camera(), kSize, kSize, sampled(64));
+  const Picture most = draw(lamp_before_wall(), facing_camera(), kEdgeSize, kEdgeSize, sampled(64));
   EXPECT_GT(count(most).between, edge(40));
 }
 

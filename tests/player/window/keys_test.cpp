@@ -25,6 +25,10 @@ class Keys : public PlayWindow {
     grid.width = grid.height = 16;
     grid.floor_y.assign(256, 0.0f);
     walked.walk_grids = {grid};
+    // Its path ends when no test looks any more.
+    CameraKey last = walked.paths[0].keys.back();
+    last.time_s = 1000;
+    walked.paths[0].keys.push_back(last);
     origin_ = walked.mesh.origin;
     ASSERT_TRUE(write_pack(pack(), walked));
     for (LightmapPage& page : walked.lightmaps)
@@ -65,30 +69,30 @@ const std::map<std::string, Try> kTries{
     {"W A S D", {"shot start; hold w; shot w; hold s; shot s; hold a; shot a; hold d; shot d"}},
     {"Q E", {"key f; shot flying; hold e; shot e; hold q; shot q", "flying"}},
     {"mouse, arrows",
-     {"key Home; hold Right; shot right; hold Up; shot up; key Home; xdotool mousemove --window $window 40 20 click 1; "
-      "pause; for i in 1 2 3 4; do xdotool mousemove_relative -- -15 8; sleep 0.05; done; key Escape; shot looked; "
-      "xdotool mousemove --window $window 30 30; pause; shot released"}},
+     {"key Home; hold Right; shot right; hold Up; shot up; key Home; point 40 20; click 1; wait_for shows grabbed; "
+      "mark; "
+      "for i in 1 2 3 4; do xdotool mousemove_relative -- -15 8; done; wait_for away 0.06; key Escape; shot looked; "
+      "point 30 30; shot released"}},
     {"Backspace", {"key BackSpace", "nothing moves here"}},
     {"double click",
-     {"key Home; xdotool mousemove --window $window 60 70; pause; xdotool click --repeat 2 --delay 60 1; sleep 1; shot "
-      "went; "
-      "key Home; xdotool click 2; sleep 1; shot middle"}},
-    {"G", {"key Home; hold Down; hold Down; key g; sleep 1; shot g"}},
+     {"key Home; point 60 70; mark; send 4 0 xdotool click --repeat 2 --delay 10 1; arrive; shot went; "
+      "key Home; mark; click 2; arrive; shot middle"}},
+    {"G", {"key Home; hold Down 0.6; mark; key g; arrive; shot g"}},
     {"F", {"key f; key f", "walking"}},
     {"O", {"key Home; key o; hold Left; shot orbit; key o; key f; key f", "around a point"}},
     {"1 to 9", {"key 2; shot camera; key 9", "there is no camera 9"}},
     {"C", {"key 1; key c; shot next", "camera 2: "}},
     {"Home", {"key Home; shot home", "where it began"}},
-    {"P", {"key p; sleep 0.4; shot path; key p", "the path is stopped"}},
+    {"P", {"key p; mark; wait_for away 0.1; shot path; key p", "the path is stopped"}},
     // After P, which plays the walk recorded last.
     {"F9",
-     {"key Home; recorded usual hold w; key Home; xdotool keydown shift; recorded fast hold w; xdotool keyup shift; "
-      "key Home; xdotool mousemove --window $window 40 20; xdotool click --repeat 8 --delay 5 5; pause; "
-      "recorded slow hold w; xdotool click --repeat 8 --delay 5 4",
+     {"key Home; recorded usual hold w; key Home; press shift; recorded fast hold w; release shift; "
+      "key Home; point 40 20; send 8 0 xdotool click --repeat 8 --delay 5 5; "
+      "recorded slow hold w; send 8 0 xdotool click --repeat 8 --delay 5 4",
       "oriel-000.json: a walk of"}},
     {"Shift", {"true"}},
     {"wheel", {"true"}},
-    {"+", {"key 1; key x; sleep 0.5; key minus; key minus; key plus", "EV "}},
+    {"+", {"key 1; key x; key minus; key minus; key plus", "EV "}},
     {"-", {"key minus", "EV "}},
     {"X", {"key x", "automatic exposure"}},
     {"M", {"key m; key m; key m; key m; key m; key m; key m; key m; key m; key m; key m", "stage zones"}},
@@ -97,11 +101,12 @@ const std::map<std::string, Try> kTries{
     {"N", {"key n; key b", "FLIP between tiny.oriel and dark.oriel"}},
     {"Tab", {"key Tab; key Tab", "panel closed"}},
     // Its Escape ends the presentation and not the player.
-    {"F11", {"key F11; sleep 0.5; shot presenting; key Escape; sleep 0.5; shot presented"}},
+    {"F11",
+     {"key F11; wait_for shows size=640x480; shot presenting; key Escape; wait_for shows size=160x90; shot presented"}},
     {"F1", {"key F1; key F1", "keys closed"}},
     {"F12", {"shot picture", "picture"}},
-    {"Shift-F12", {"key shift+F12; pause", "oriel-000.exr"}},
-    {"F5", {"key F5; pause", "tiny.oriel: loaded again"}},
+    {"Shift-F12", {"key shift+F12", "oriel-000.exr"}},
+    {"F5", {"key F5", "tiny.oriel: loaded again"}},
     {"Esc, Ctrl-Q", {"xdotool key --window $window ctrl+q; wait $pid; echo \"ended $?\"", "ended 0"}},
     // In tests of their own.
     {"drag a mover", {"true"}},
@@ -110,22 +115,14 @@ const std::map<std::string, Try> kTries{
 
 constexpr const char* kShell = R"(
 try() { echo "== $1"; line=$(wc -l < log); }
-# Until it is said since then, on a machine however slow.
-said() { for i in $(seq 100); do tail -n +$line log | grep -qF -- "$1" && break; sleep 0.1; done; }
-pause() { sleep 0.15; }
-key() { xdotool key --window "$window" "$@"; pause; }
-hold() { xdotool keydown --window "$window" "$1"; sleep 0.2; xdotool keyup --window "$window" "$1"; pause; }
+# Until it is said since then.
+told() { tail -n +$line log | grep -qF -- "$1"; }
+said() { wait_for told "$1"; }
+# On a walk that has begun.
+arrive() { wait_for away 0.3; wait_for shows still; }
 # What is done meanwhile, as the window records it.
-recorded() {
-  key F9; "${@:2}"; key F9
-  for i in $(seq 100); do [ -s oriel-000.json ] && break; sleep 0.03; done
-  mv oriel-000.json $1.json
-}
-shot() {
-  xdotool key --window "$window" F12
-  for i in $(seq 100); do [ -s oriel-000.png ] && break; sleep 0.03; done
-  sleep 0.05; mv oriel-000.png $1.png; echo "$1"
-}
+recorded() { key F9; "${@:2}"; key F9; mv oriel-000.json $1.json; }
+shot() { key F12; mv oriel-000.png $1.png; echo "$1"; }
 )";
 
 TEST_F(Keys, DoWhatTheirSheetSays) {
@@ -183,26 +180,32 @@ TEST_F(Keys, DoWhatTheirSheetSays) {
 
 // Taken off the screen and put back: it waits and goes on. A window of one pixel, and one larger than the screen.
 TEST_F(Keys, TheWindowMayGoAwayAndComeBack) {
-  const Outcome r = in_display(std::string(kStart) + kShell + R"(
-key plus; sleep 0.5  # exposure by hand: an eye still adapts after the first frame
+  const Outcome r = in_display(kStart + kShell + R"(
+key plus; wait_for shows still  # exposure by hand: an eye adapts for long
 shot before
-xdotool windowunmap --sync "$window"; sleep 0.5
-before=$(awk '{print $14 + $15}' /proc/$pid/stat); sleep 0.5; after=$(awk '{print $14 + $15}' /proc/$pid/stat)
-echo "hidden $((after - before)) ticks"
-xdotool windowmap --sync "$window"; xdotool windowfocus "$window"; sleep 0.3
+ticks() { awk '{print $14 + $15}' /proc/$pid/stat; }
+slept() { awk '/^voluntary/ {print $2}' /proc/$pid/status; }
+woke() { (($(slept) >= $1)); }
+xdotool windowunmap "$window"; wait_for shows hidden
+before=$(ticks); wait_for woke $(($(slept) + 20)); after=$(ticks)
+xdotool windowmap --sync "$window"; xdotool windowfocus "$window"; wait_for ready; wait_for shows still
+frames=$(grep -A1 ' hidden$' log | awk '{print $3}' | tr '\n' ' ')
+echo "hidden $((after - before)) ticks, frames $frames"
 shot back
-for size in "1 1" "1 300" "5000 2" "700 500"; do xdotool windowsize "$window" $size; sleep 0.2; done
-xdotool windowmove "$window" -- -500 -400; sleep 0.2; xdotool windowmove "$window" 0 0; sleep 0.2
+for size in "1 1" "1 300" "5000 2" "700 500"; do resize $size; done
+point 100 50
+xdotool windowmove -- "$window" -500 -400; wait_for shows pointer=600,450
+xdotool windowmove "$window" 0 0; wait_for shows pointer=100,50
 shot large
-key Escape
-wait $pid
+quit
 )");
   ASSERT_TRUE(ends(r, 0, "large"));
   const std::size_t at = r.out.find("hidden ");
   ASSERT_NE(at, std::string::npos) << r.out;
-  int ticks = 100;
-  ASSERT_EQ(std::sscanf(r.out.c_str() + at, "hidden %d ticks", &ticks), 1);
-  EXPECT_LE(ticks, 10) << "of some 50: it draws nothing while nobody sees it";
+  int ticks = 100, last = 0, next = 0;
+  ASSERT_EQ(std::sscanf(r.out.c_str() + at, "hidden %d ticks, frames %d %d", &ticks, &last, &next), 3);
+  EXPECT_LE(ticks, 10) << "of CPU time, while it woke twenty times: it has nothing to do while nobody sees it";
+  EXPECT_EQ(next, last + 1) << "and draws nothing";
   EXPECT_EQ(read_png(folder() / "before.png")->pixels, read_png(folder() / "back.png")->pixels);
   EXPECT_EQ(read_png(folder() / "large.png")->width, 700u);
 }

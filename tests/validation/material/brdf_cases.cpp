@@ -71,18 +71,19 @@ void metal_case(const Json& c, std::vector<FunctionReading>& all) {
     const Json& angles = c["inputs"]["angles_deg"];
     const Json& expected = c["expected"];
     for (std::size_t i = 0; i < angles.size(); ++i)
-      r.add(fmt::format("{} {}°", channel, angles[i].dump()), fresnel_conductor(index, cosine_of(angles[i])),
-            expected["F_unpolarised"][channel][i]);
+      r.add(fmt::format("{} {}°", channel, angles[i].dump()),
+            fresnel_conductor(index, cosine_of(angles[i].get<double>())),
+            expected["F_unpolarised"][channel][i].get<double>());
     if (expected.contains("F0"))
-      r.add(std::string("F0 ") + channel, fresnel_conductor(index, 1), expected["F0"][channel]);
+      r.add(std::string("F0 ") + channel, fresnel_conductor(index, 1), expected["F0"][channel].get<double>());
     if (expected.contains("F_s_60")) {
       const PolarisedReflectance at_60 = polarised_reflectance(index, cosine_of(60));
-      r.add(std::string("s ") + channel, at_60.s, expected["F_s_60"][channel]);
-      r.add(std::string("p ") + channel, at_60.p, expected["F_p_60"][channel]);
+      r.add(std::string("s ") + channel, at_60.s, expected["F_s_60"][channel].get<double>());
+      r.add(std::string("p ") + channel, at_60.p, expected["F_p_60"][channel].get<double>());
     }
     if (expected.contains("F_cosine_average"))
       r.add(std::string("average ") + channel, cosine_average([&](double mu) { return fresnel_conductor(index, mu); }),
-            expected["F_cosine_average"][channel]);
+            expected["F_cosine_average"][channel].get<double>());
   }
   append(all, r);
 }
@@ -95,7 +96,7 @@ void named_metal(const Json& c, const char* symbol, std::vector<FunctionReading>
   const std::array<const char*, 3> channels{"R", "G", "B"};
   for (std::size_t i = 0; i < 3; ++i)
     r.add(fmt::format("table {} {}", symbol, channels[i]), fresnel_conductor(constants_of(*metal).rgb[i], 1),
-          c["expected"]["F0"][channels[i]]);
+          c["expected"]["F0"][channels[i]].get<double>());
   append(all, r);
 }
 
@@ -106,18 +107,20 @@ void dielectric_cases(const Suite& suite, std::vector<FunctionReading>& all) {
   for (const auto& [name, values] : c["expected"]["F_unpolarised"].items()) {
     const double n = number(name);
     for (std::size_t i = 0; i < angles.size(); ++i)
-      r.add(fmt::format("n {} {}°", name, angles[i].dump()), fresnel_dielectric(n, cosine_of(angles[i])), values[i]);
-    r.add("F0 " + name, dielectric_f0(n), c["expected"]["F0"][name]);
+      r.add(fmt::format("n {} {}°", name, angles[i].dump()), fresnel_dielectric(n, cosine_of(angles[i].get<double>())),
+            values[i].get<double>());
+    r.add("F0 " + name, dielectric_f0(n), c["expected"]["F0"][name].get<double>());
     r.add("average " + name, cosine_average([&](double mu) { return fresnel_dielectric(n, mu); }),
-          c["expected"]["F_cosine_average"][name]);
+          c["expected"]["F_cosine_average"][name].get<double>());
   }
   append(all, r);
   const Json& inside = suite.find("FRE-int");
   Readings ri(inside);
   for (std::size_t i = 0; i < inside["inputs"]["angles_deg"].size(); ++i)
     ri.add(inside["inputs"]["angles_deg"][i].dump(),
-           fresnel_dielectric(inside["inputs"]["n_rel"], cosine_of(inside["inputs"]["angles_deg"][i])),
-           inside["expected"]["F_unpolarised"][i]);
+           fresnel_dielectric(inside["inputs"]["n_rel"].get<double>(),
+                              cosine_of(inside["inputs"]["angles_deg"][i].get<double>())),
+           inside["expected"]["F_unpolarised"][i].get<double>());
   append(all, ri);
 }
 
@@ -132,10 +135,10 @@ void schlick_case(const Suite& suite, std::vector<FunctionReading>& all) {
   Readings r(c);
   for (const auto& [name, index] : materials)
     for (std::size_t i = 0; i < c["inputs"]["angles_deg"].size(); ++i) {
-      const double mu = cosine_of(c["inputs"]["angles_deg"][i]);
+      const double mu = cosine_of(c["inputs"]["angles_deg"][i].get<double>());
       r.add(fmt::format("{} {}", name, c["inputs"]["angles_deg"][i].dump()),
             glm::mix(fresnel_conductor(index, 1), 1.0, schlick_weight(mu)) - fresnel_conductor(index, mu),
-            c["expected"]["schlick_minus_exact"][name][i]);
+            c["expected"]["schlick_minus_exact"][name][i].get<double>());
     }
   append(all, r);
 }
@@ -146,8 +149,9 @@ void extreme_case(const Suite& suite, std::vector<FunctionReading>& all) {
   for (std::size_t m = 0; m < c["inputs"]["nk"].size(); ++m) {
     const ComplexIndex index = index_of(c["inputs"]["nk"][m]);
     for (std::size_t i = 0; i < c["inputs"]["angles_deg"].size(); ++i) {
-      const double angle = c["inputs"]["angles_deg"][i];
-      const double expected = c["expected"]["F_unpolarised"][m][i], value = fresnel_conductor(index, cosine_of(angle));
+      const double angle = c["inputs"]["angles_deg"][i].get<double>();
+      const double expected = c["expected"]["F_unpolarised"][m][i].get<double>(),
+                   value = fresnel_conductor(index, cosine_of(angle));
       r.add(fmt::format("{} {}°", c["inputs"]["nk"][m].dump(), angle), value, expected);
       if (angle == 90) r.add(fmt::format("{} exactly", c["inputs"]["nk"][m].dump()), value, expected, 0);
     }
@@ -185,9 +189,9 @@ void albedo_case(const Suite& suite, std::vector<FunctionReading>& all) {
   for (const auto& [name, model] : models)
     for (const auto& [alpha, values] : c["expected"][name].items())
       for (std::size_t i = 0; i < values.size(); ++i) {
-        const double mu = c["inputs"]["mu"][i];
+        const double mu = c["inputs"]["mu"][i].get<double>();
         r.add(fmt::format("{} alpha {} mu {}", name, alpha, mu), albedo(model(number(alpha)), number(alpha), mu),
-              values[i]);
+              values[i].get<double>());
       }
   append(all, r);
   const Json& mean = suite.find("MIC-Eavg-a");
@@ -202,7 +206,7 @@ void albedo_case(const Suite& suite, std::vector<FunctionReading>& all) {
         const double mu = rule.nodes[i] * rule.nodes[i];
         sum += rule.weights[i] * 2 * rule.nodes[i] * 2 * mu * albedo(f, number(alpha), mu);
       }
-      rm.add(std::string(name) + " alpha " + alpha, sum, value);
+      rm.add(std::string(name) + " alpha " + alpha, sum, value.get<double>());
     }
   append(all, rm);
 }
@@ -212,13 +216,14 @@ void split_case(const Suite& suite, std::vector<FunctionReading>& all) {
   Readings r(c);
   for (const auto& [alpha, values] : c["expected"]["A_B"].items())
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const double mu = c["inputs"]["mu"][i];
+      const double mu = c["inputs"]["mu"][i].get<double>();
       const LobeFunction f = smith(FacetModel::kGgx, number(alpha));
       const double bias = albedo([&](const DVec3& wo, const DVec3& wi,
                                      const DVec3& h) { return f(wo, wi, h) * schlick_weight(glm::dot(wo, h)); },
                                  number(alpha), mu);
-      r.add(fmt::format("A alpha {} mu {}", alpha, mu), albedo(f, number(alpha), mu) - bias, values[i][0]);
-      r.add(fmt::format("B alpha {} mu {}", alpha, mu), bias, values[i][1]);
+      r.add(fmt::format("A alpha {} mu {}", alpha, mu), albedo(f, number(alpha), mu) - bias,
+            values[i][0].get<double>());
+      r.add(fmt::format("B alpha {} mu {}", alpha, mu), bias, values[i][1].get<double>());
     }
   append(all, r);
 }
@@ -250,11 +255,13 @@ std::vector<FunctionReading> microfacet_readings(const Suite& suite) {
     for (const auto& [alpha, values] : d["expected"][d_name].items())
       for (std::size_t i = 0; i < values.size(); ++i)
         rd.add(fmt::format("{} alpha {} {}°", d_name, alpha, d["inputs"]["theta_h_deg"][i].dump()),
-               Microfacet(model, number(alpha)).d(direction_at(cosine_of(d["inputs"]["theta_h_deg"][i]))), values[i]);
+               Microfacet(model, number(alpha)).d(direction_at(cosine_of(d["inputs"]["theta_h_deg"][i].get<double>()))),
+               values[i].get<double>());
     for (const auto& [alpha, values] : g["expected"][g_name].items())
       for (std::size_t i = 0; i < values.size(); ++i)
         rg.add(fmt::format("{} alpha {} mu {}", g_name, alpha, g["inputs"]["mu"][i].dump()),
-               Microfacet(model, number(alpha)).g1(direction_at(g["inputs"]["mu"][i])), values[i]);
+               Microfacet(model, number(alpha)).g1(direction_at(g["inputs"]["mu"][i].get<double>())),
+               values[i].get<double>());
   }
   append(all, rd);
   append(all, rg);

@@ -9,7 +9,7 @@
 namespace oriel::validation {
 namespace {
 
-class BrdfValidation : public testing::Test {
+class BrdfValidation : public ::testing::Test {
  protected:
   void SetUp() override {
     suite_ = Suite::open();

@@ -3,21 +3,19 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "bake/material/slices.h"
+#include "formats/core/json.h"
 
 namespace oriel {
 namespace {
-
-using Json = nlohmann::json;
 
 Json cases_named(const std::string& prefix) {
   Json found = Json::array();
   const char* folder = std::getenv("ORIEL_VALIDATION");
   if (folder == nullptr) return found;
   std::ifstream file(std::string(folder) + "/brdf_fresnel.json");
-  const Json suite = Json::parse(file);
+  const Json suite = Json::parse(std::string(std::istreambuf_iterator<char>(file), {})).value();
   for (const Json& c : suite["cases"])
     if (c["id"].get<std::string>().rfind(prefix, 0) == 0) found.push_back(c);
   return found;
@@ -33,15 +31,15 @@ double encircled(const KernelSlice& s, double gamma_deg) {
 }
 
 void expect_lobe(const Json& expected, KernelModel model, LobeForm form, const Json& tolerance) {
-  const double m = expected["m"], mu = expected["mu"];
+  const double m = expected["m"].get<double>(), mu = expected["mu"].get<double>();
   const KernelSlice s = make_slice(microfacet_lobe(model, form, m), m, mu);
-  const double fraction = tolerance["abs_fraction"];
+  const double fraction = tolerance["abs_fraction"].get<double>();
   EXPECT_NEAR(s.albedo, expected["E"].get<double>(), fraction) << m << " at " << mu;
   EXPECT_NEAR((std::asin(mu) + s.tilt_rad) * 180 / kPiD, expected["mean_elev_deg"].get<double>(),
               tolerance["abs_deg"].get<double>())
       << m << " at " << mu;
   for (const auto& [degrees, share] : expected["encircled_energy_fraction"].items()) {
-    if (share >= s.radial.back()) continue;  // beyond what the table holds
+    if (share.get<double>() >= s.radial.back()) continue;  // beyond what the table holds
     EXPECT_NEAR(encircled(s, std::stod(degrees)), share.get<double>(), fraction)
         << m << " at " << mu << ": " << degrees;
   }
@@ -65,7 +63,7 @@ TEST(KernelCases, KernelsHoldTheLobesEnergy) {
     for (const auto& [m_text, energies] : c["expected"]["E"].items()) {
       const double m = std::stod(m_text);
       for (std::size_t i = 0; i < energies.size(); ++i) {
-        const double mu = c["inputs"]["mu_view"][i];
+        const double mu = c["inputs"]["mu_view"][i].get<double>();
         const KernelSlice s = make_slice(microfacet_lobe(KernelModel::kBeckmann, LobeForm::kDg, m), m, mu);
         EXPECT_NEAR(s.albedo, energies[i].get<double>(), c["tolerance"]["abs"].get<double>()) << m << " at " << mu;
       }

@@ -10,7 +10,7 @@
 namespace oriel::validation {
 namespace {
 
-constexpr int kOrder = 200;  // the grooves' G has kinks
+constexpr int kLobeOrder = 200;  // the grooves' G has kinks
 
 // D G / (4 cosθo) of Cook and Torrance 1981, whose D/π has the 1/4 that the 1982 paper lost: there it is 4 times this.
 LobeFunction grooves(double m) {
@@ -28,7 +28,7 @@ struct Shape {
 Shape shape_of(const LobeFunction& f_cos, double width, double mu) {
   const DVec3 wo = direction_at(mu), mirror(-wo.x, 0, wo.z);
   Shape shape;
-  for_each_reflection(mu, width, kOrder, [&](const DVec3& wi, const DVec3& h, double solid_angle) {
+  for_each_reflection(mu, width, kLobeOrder, [&](const DVec3& wi, const DVec3& h, double solid_angle) {
     const double weight = f_cos(wo, wi, h) * solid_angle;
     shape.energy += weight;
     shape.sum += weight * DVec3(wi.x, 0, wi.z);  // its mirror image is counted in
@@ -54,27 +54,29 @@ double radius_of(const Shape& shape, double share) {
 
 void shape_case(const Json& in, const Json& expected, const LobeFunction& f, const std::string& name,
                 const Json& tolerance, std::vector<FunctionReading>& all) {
-  const Shape shape = shape_of(f, in["m"], in["mu"]);
+  const Shape shape = shape_of(f, in["m"].get<double>(), in["mu"].get<double>());
   const std::string what = fmt::format("CTK-lobe {} mu {} m {} ", name, in["mu"].dump(), in["m"].dump());
-  const double fraction = tolerance["abs_fraction"], degrees = tolerance["abs_deg"];
-  all.push_back({what + "E", shape.energy, expected["E"], fraction});
-  all.push_back({what + "mean elevation", std::atan2(shape.sum.z, -shape.sum.x) * 180 / kPiD, expected["mean_elev_deg"],
-                 degrees});
+  const double fraction = tolerance["abs_fraction"].get<double>(), degrees = tolerance["abs_deg"].get<double>();
+  all.push_back({what + "E", shape.energy, expected["E"].get<double>(), fraction});
+  all.push_back({what + "mean elevation", std::atan2(shape.sum.z, -shape.sum.x) * 180 / kPiD,
+                 expected["mean_elev_deg"].get<double>(), degrees});
   for (int axis : {0, 2})
-    all.push_back({what + "mean direction", shape.sum[axis] / shape.energy, expected["mean_dir"][axis], fraction});
+    all.push_back(
+        {what + "mean direction", shape.sum[axis] / shape.energy, expected["mean_dir"][axis].get<double>(), fraction});
   for (const auto& [cone, share] : expected["encircled_energy_fraction"].items())
-    all.push_back({what + "within " + cone + "°", energy_within(shape, std::stod(cone)), share, fraction});
-  all.push_back({what + "r50", radius_of(shape, 0.5), expected["r50_deg"], degrees});
-  all.push_back({what + "r90", radius_of(shape, 0.9), expected["r90_deg"], degrees});
+    all.push_back(
+        {what + "within " + cone + "°", energy_within(shape, std::stod(cone)), share.get<double>(), fraction});
+  all.push_back({what + "r50", radius_of(shape, 0.5), expected["r50_deg"].get<double>(), degrees});
+  all.push_back({what + "r90", radius_of(shape, 0.9), expected["r90_deg"].get<double>(), degrees});
 }
 
 void fit_case(const Suite& suite, std::vector<FunctionReading>& all) {
   const Json& c = suite.find("WPH-01");
-  const double rel = c["tolerance"]["rel"];
+  const double rel = c["tolerance"]["rel"].get<double>();
   for (const auto& [alpha, fit] : c["expected"]["least_squares_fits"].items()) {
     const double a = std::stod(alpha);
     const Phong found = fit_phong(a).phong;
-    const double exponent = fit["n_alpha2_2param"], factor = fit["factor_over_n_2param"];
+    const double exponent = fit["n_alpha2_2param"].get<double>(), factor = fit["factor_over_n_2param"].get<double>();
     all.push_back({"WPH-01 exponent " + alpha, found.exponent * a * a, exponent, rel * exponent});
     all.push_back({"WPH-01 factor " + alpha, found.gain / found.exponent, factor, rel * factor});
   }
@@ -85,20 +87,20 @@ void fit_case(const Suite& suite, std::vector<FunctionReading>& all) {
 std::vector<FunctionReading> groove_readings(const Suite& suite) {
   std::vector<FunctionReading> all;
   const Json& c = suite.find("CTK-E-a");
-  const double tolerance = c["tolerance"]["abs"];
+  const double tolerance = c["tolerance"]["abs"].get<double>();
   for (const auto& [m, values] : c["expected"]["E"].items())
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const double mu = c["inputs"]["mu_view"][i], width = std::stod(m);
+      const double mu = c["inputs"]["mu_view"][i].get<double>(), width = std::stod(m);
       const double e = shape_of(grooves(width), width, mu).energy;
-      all.push_back({fmt::format("CTK-E m {} mu {}", m, mu), e, values[i], tolerance});
-      all.push_back({fmt::format("CTK-E 1982 m {} mu {}", m, mu), 4 * e, c["expected"]["E_with_1982_constants"][m][i],
-                     4 * tolerance});
+      all.push_back({fmt::format("CTK-E m {} mu {}", m, mu), e, values[i].get<double>(), tolerance});
+      all.push_back({fmt::format("CTK-E 1982 m {} mu {}", m, mu), 4 * e,
+                     c["expected"]["E_with_1982_constants"][m][i].get<double>(), 4 * tolerance});
     }
   const Json& lobes = suite.find("CTK-lobe-a");
   for (std::size_t i = 0; i < lobes["inputs"]["cases"].size(); ++i) {
     const Json& in = lobes["inputs"]["cases"][i];
     const Microfacet ggx(FacetModel::kGgx, in["m"].get<double>());
-    shape_case(in, lobes["expected"]["cook_torrance_beckmann_vcavity"][i], grooves(in["m"]), "grooves",
+    shape_case(in, lobes["expected"]["cook_torrance_beckmann_vcavity"][i], grooves(in["m"].get<double>()), "grooves",
                lobes["tolerance"], all);
     shape_case(
         in, lobes["expected"]["ggx_smith_corr"][i],
@@ -117,18 +119,18 @@ std::vector<FunctionReading> ward_readings(const Suite& suite) {
     for (const auto& [alpha, values] : c["expected"][name].items())
       for (std::size_t i = 0; i < values.size(); ++i) {
         const Ward ward{norm, std::stod(alpha)};
-        const double mu = c["inputs"]["mu"][i];
+        const double mu = c["inputs"]["mu"][i].get<double>();
         const auto f = [&](const DVec3& wo, const DVec3& wi, const DVec3& h) { return ward.f_cos(wo, wi, h); };
         all.push_back({fmt::format("WARD {} alpha {} mu {}", name, alpha, mu), shape_of(f, ward.alpha, mu).energy,
-                       values[i], c["tolerance"]["abs"]});
+                       values[i].get<double>(), c["tolerance"]["abs"].get<double>()});
       }
   fit_case(suite, all);
   const Json& points = suite.find("WPH-02");
-  const double rel = points["tolerance"]["rel"];
+  const double rel = points["tolerance"]["rel"].get<double>();
   for (const auto& [alpha, values] : points["expected"]["ward"].items())
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double a = std::stod(alpha), cosine = std::cos(points["inputs"]["d_deg"][i].get<double>() * kPiD / 180);
-      const double ward = values[i], phong = points["expected"]["phong_fit"][alpha][i];
+      const double ward = values[i].get<double>(), phong = points["expected"]["phong_fit"][alpha][i].get<double>();
       // Printed with ten decimals.
       all.push_back({"WPH-02 ward " + alpha, Ward{WardNorm::kOriginal, a}.lobe(cosine), ward, rel * ward + 1e-10});
       all.push_back({"WPH-02 phong " + alpha, published_phong(a).lobe(cosine), phong, rel * phong + 1e-10});

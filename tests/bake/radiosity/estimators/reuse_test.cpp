@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kSide = 8, kTiles = 4;
+constexpr std::uint32_t kReusedSide = 8, kTiles = 4;
 
 // Tiles of 8 by 8 texels beside each other on one page, all visible.
 struct Page {
@@ -17,11 +17,12 @@ struct Page {
   KnownLight known;
 
   explicit Page(float light) {
-    const std::uint32_t n = kTiles * kSide * kSide;
-    texels.pages.push_back({kTiles * kSide, kSide, std::vector<std::uint32_t>(n), {}, 0});
+    const std::uint32_t n = kTiles * kReusedSide * kReusedSide;
+    texels.pages.push_back({kTiles * kReusedSide, kReusedSide, std::vector<std::uint32_t>(n), {}, 0});
     for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t x = i / (kSide * kSide) * kSide + i % kSide, y = i / kSide % kSide;
-      texels.pages[0].number[y * kTiles * kSide + x] = i;
+      const std::uint32_t x = i / (kReusedSide * kReusedSide) * kReusedSide + i % kReusedSide,
+                          y = i / kReusedSide % kReusedSide;
+      texels.pages[0].number[y * kTiles * kReusedSide + x] = i;
       texels.page.push_back(0), texels.x.push_back(x), texels.y.push_back(y), texels.chart.push_back(0);
     }
     texels.visible.assign(n, 1);
@@ -36,7 +37,8 @@ struct Page {
   // Tile t is changed by step * t.
   std::vector<Vec3> changed(float step) const {
     std::vector<Vec3> light(known.coarse);
-    for (std::size_t i = 0; i < light.size(); ++i) light[i] += step * static_cast<float>(i / (kSide * kSide));
+    for (std::size_t i = 0; i < light.size(); ++i)
+      light[i] += step * static_cast<float>(i / (kReusedSide * kReusedSide));
     return light;
   }
 };

@@ -100,7 +100,7 @@ TEST(LampPaths, CostNothingWhereNoLampIsNear) {
 
 enum class Glass : std::uint8_t { kThin, kSolid, kFrosted };
 
-class LampPathsBesideGlass : public testing::TestWithParam<std::tuple<Glass, bool>> {};
+class LampPathsBesideGlass : public ::testing::TestWithParam<std::tuple<Glass, bool>> {};
 
 // Lamps or a sun, a plinth that the floor's texels see from nearer than paths leave off, a pane or a block of glass and
 // a mirror: what rays and particles find together is what rays find alone, nothing of it twice.
@@ -167,8 +167,8 @@ TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
   EXPECT_LT(by_particles, 0.9) << "rays do";
 }
 INSTANTIATE_TEST_SUITE_P(All, LampPathsBesideGlass,
-                         testing::Combine(testing::Values(Glass::kThin, Glass::kSolid, Glass::kFrosted),
-                                          testing::Bool()));
+                         ::testing::Combine(::testing::Values(Glass::kThin, Glass::kSolid, Glass::kFrosted),
+                                            ::testing::Bool()));
 
 // A closed box of perfect metal fills with light until the lamp takes in what it sends: E = πL on every wall. What
 // comes straight from the lamp is no particle's.

@@ -1,0 +1,1 @@
+// Is compiled for its precompiled header alone.
