@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ file that holds every file of SHADERS as a raw string.
+# Writes OUTPUT, a C++ file whose function NAMESPACE::shader_sources() gives every file of SHADERS as a raw string.
 file(GLOB_RECURSE files RELATIVE "${SHADERS}" "${SHADERS}/*.vert" "${SHADERS}/*.frag" "${SHADERS}/*.glsl")
 list(SORT files)
 set(table "")
@@ -6,23 +6,17 @@ foreach(name IN LISTS files)
   file(READ "${SHADERS}/${name}" text)
   string(APPEND table "    {\"${name}\", R\"oriel_glsl(${text})oriel_glsl\"},\n")
 endforeach()
-file(WRITE "${OUTPUT}" "// Made from shaders/ by player/gpu/embed_shaders.cmake.
-#include <array>
-#include <string_view>
-#include <utility>
+file(WRITE "${OUTPUT}" "// Made by player/gpu/embed_shaders.cmake.
+#include \"player/gpu/program.h\"
 
-namespace oriel::gpu {
-namespace {
-constexpr std::pair<std::string_view, std::string_view> kSources[] = {
+namespace ${NAMESPACE} {
+
+std::span<const oriel::gpu::ShaderSource> shader_sources();
+std::span<const oriel::gpu::ShaderSource> shader_sources() {
+  static const std::initializer_list<oriel::gpu::ShaderSource> kSources = {
 ${table}};
-}  // namespace
-
-std::string_view shader_source(std::string_view name) {
-  for (const auto& [file, text] : kSources) {
-    if (file == name) return text;
-  }
-  return {};
+  return {kSources.begin(), kSources.size()};
 }
 
-}  // namespace oriel::gpu
+}  // namespace ${NAMESPACE}
 ")

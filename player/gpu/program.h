@@ -13,7 +13,12 @@
 
 namespace oriel::gpu {
 
-// The text of shaders/<name> ("passes/scene.frag"), empty where there is none.
+struct ShaderSource {
+  std::string_view name, text;  // "passes/scene.frag"
+};
+// Shaders of a program above the player, whose texts stay: found by name from now on. Before the first context.
+void add_shader_sources(std::span<const ShaderSource> sources);
+// The text of shaders/<name>, or of one that was added; empty where there is none.
 std::string_view shader_source(std::string_view name);
 
 // The whole text that the driver compiles: version line of the dialect, default precisions, then the file with each

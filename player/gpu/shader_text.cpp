@@ -5,7 +5,15 @@
 #include "player/gpu/program.h"
 
 namespace oriel::gpu {
+
+std::span<const ShaderSource> shader_sources();  // of shaders/, made by embed_shaders.cmake
+
 namespace {
+
+std::vector<ShaderSource>& added_sources() {
+  static std::vector<ShaderSource> sources;
+  return sources;
+}
 
 constexpr std::string_view kDesktopHead = "#version 330 core\n";
 constexpr std::string_view kEsHead =
@@ -66,6 +74,17 @@ Place read_place(const char* at, const char* end) {
 }
 
 }  // namespace
+
+void add_shader_sources(std::span<const ShaderSource> sources) {
+  added_sources().insert(added_sources().end(), sources.begin(), sources.end());
+}
+
+std::string_view shader_source(std::string_view name) {
+  for (const std::span<const ShaderSource> sources : {shader_sources(), std::span<const ShaderSource>(added_sources())})
+    for (const ShaderSource& source : sources)
+      if (source.name == name) return source.text;
+  return {};
+}
 
 Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect, std::string_view define) {
   ShaderText out;

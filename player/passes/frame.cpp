@@ -117,15 +117,16 @@ Result<std::optional<BrightChange>> Renderer::draw_change(const FrameContext& co
 }
 
 // Before movers are drawn: the stencil has reflectors' marks.
-Status Renderer::add_lamps(const FrameContext& context, const LitBatches& lit) {
-  const auto draw = [&] { return multi_pass_.draw(context, LitImage::of(*frame_), lit); };
+Status Renderer::add_light(const FrameContext& context, const LitBatches& lit, FrameExtension& extension) {
+  const auto draw = [&] { return extension.add_light(context, LitImage::of(*frame_), lit); };
   ORIEL_TRY_VOID(clock_.time(Pass::kLamps, draw));
   frame_->drawn().bind();
   glViewport(0, 0, context.view.width, context.view.height);
   return {};
 }
 
-Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
+Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options,
+                                    FrameExtension* extension) {
   in_window_ = drew_movers_ = false;
   // Light of moved lamps is that of the textures that are there.
   if (!options.live.in_background && !options.lamps.empty()) ORIEL_TRY_VOID(scene.aim(view));
@@ -150,7 +151,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   if (is_survey(options.show)) {
     ORIEL_TRY_VOID(clock_.time(Pass::kScene, [&] { return survey_pass_.draw(context, shown); }));
   } else {
-    ORIEL_TRY_VOID(draw_light(context, shown));
+    ORIEL_TRY_VOID(draw_light(context, shown, options.multi_pass.on ? &multi_pass_ : extension));
     count_images(scene, stats);
   }
   frame_->resolve_light();
@@ -159,14 +160,13 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   return stats;
 }
 
-Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBatch> shown) {
+Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBatch> shown, FrameExtension* extension) {
   const auto& [scene, view, options, stats] = context;
   const std::vector<PlacedMover> movers = clock_.time(Pass::kMovers, [&] { return place_movers(scene, options); });
   if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(context, movers); });
   const std::vector<PlacedMover> mirrored = in_mirrors(scene, options);
-  MultiPass* const lamps = options.multi_pass.on ? &multi_pass_ : nullptr;
-  if (lamps) ORIEL_TRY_VOID(clock_.time(Pass::kLamps, [&] { return lamps->begin(context, movers); }));
-  const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored, glass_pass_, lamps};
+  if (extension) ORIEL_TRY_VOID(clock_.time(Pass::kLamps, [&] { return extension->begin(context, movers); }));
+  const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored, glass_pass_, extension};
   const ReflectionTarget target{&*frame_};
   ReflectionMarks marks;
   ORIEL_TRY(const std::vector<MarkedReflector> marked,
@@ -187,7 +187,7 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
     ORIEL_TRY(const auto change, draw_change(context, shown, movers));
     drew_movers_ = !movers.empty();
     clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(context, shown, weights, marks.reflective, change); });
-    if (lamps) ORIEL_TRY_VOID(add_lamps(context, {shown, false, marks.reflective, weights}));
+    if (extension) ORIEL_TRY_VOID(add_light(context, {shown, false, marks.reflective, weights}, *extension));
     if (!movers.empty()) {
       clock_.time(Pass::kMovers, [&] {
         mover_pass_.draw(context, movers, {weights.diffuse, weights.undirected, weights.emission},

@@ -25,7 +25,9 @@ class Renderer {
 
   // Draws a frame into the renderer's own picture, of the view's size. Errors: kUsage where that exceeds the device,
   // kRuntime where the driver fails.
-  Result<FrameStats> render(GpuScene& scene, const View& view, const FrameOptions& options);
+  // extension: draws with it.
+  Result<FrameStats> render(GpuScene& scene, const View& view, const FrameOptions& options,
+                            FrameExtension* extension = nullptr);
   // Of the last frame: see DisplayPass.
   Result<std::optional<float>> meter() { return display_.meter(*frame_); }
   void display(float ev100, ToneCurve curve) const { display_.draw(*frame_, ev100, curve); }
@@ -53,12 +55,11 @@ class Renderer {
   Renderer();
   Status ensure_frame(int width, int height, int samples, bool halves);
   // Over the depth of the opaque scene, of which that is shown: movers, reflections and the scene's own light.
-  Status draw_light(const FrameContext& context, std::span<const DrawBatch> shown);
+  Status draw_light(const FrameContext& context, std::span<const DrawBatch> shown, FrameExtension* extension);
   // What movers change of the light on what is seen, if anything.
   Result<std::optional<BrightChange>> draw_change(const FrameContext& context, std::span<const DrawBatch> shown,
                                                   std::span<const PlacedMover> movers);
-  // Light of lamps that the lightmap is without.
-  Status add_lamps(const FrameContext& context, const LitBatches& lit);
+  Status add_light(const FrameContext& context, const LitBatches& lit, FrameExtension& extension);
 
   gpu::Device device_;
   ScenePass scene_pass_;

@@ -199,7 +199,7 @@ void MultiPass::add_light(const FrameContext& context, const LitBatches& lit, co
   ++stats.passes.light_passes;
 }
 
-Status MultiPass::draw(const FrameContext& context, const LitImage& image, const LitBatches& lit) {
+Status MultiPass::add_light(const FrameContext& context, const LitImage& image, const LitBatches& lit) {
   ++context.stats.passes.images;
   if (paths_.paths.empty()) return {};
   ORIEL_TRY(Target* const target, target_of(image));

@@ -8,41 +8,20 @@
 #pragma once
 
 #include <optional>
-#include <set>
 
-#include "player/gpu/framebuffer.h"
-#include "player/passes/scene_pass.h"
-#include "player/passes/targets.h"
+#include "player/passes/frame_extension.h"
 #include "player/passes/volume_cache.h"
-#include "player/reflections/image_target.h"
 
 namespace oriel {
 
-// What is lit: the frame, or the image of a mirror.
-struct LitImage {
-  const gpu::Framebuffer& from;  // whose depth and stencil tell what is seen
-  const gpu::Texture2d* light = nullptr;
-  const gpu::MultisampleTexture* samples = nullptr;  // in place of it
-  static LitImage of(const FrameTarget& frame);
-  static LitImage of(const ImageTarget& image) { return {image.sharp_framebuffer, &image.sharp, nullptr}; }
-};
-
-// The part of the scene that it shows, of all indices or of those that are bound by GpuScene::bind_shown().
-struct LitBatches {
-  std::span<const DrawBatch> shown;
-  bool all_indices = false;
-  const std::set<std::uint32_t>& reflective;  // materials of reflectors whose images are marked in the stencil
-  SceneWeights weights;
-};
-
-class MultiPass {
+class MultiPass : public FrameExtension {
  public:
   explicit MultiPass(gpu::Dialect dialect = {}) : dialect_(dialect) {}
 
   // Before the images of a frame. Error kRuntime: the device has no OpenGL that clamps depth, or refuses a shader.
-  Status begin(const FrameContext& context, std::span<const PlacedMover> movers);
+  Status begin(const FrameContext& context, std::span<const PlacedMover> movers) override;
   // Adds the light of lamps; own framebuffers stay bound. Error kRuntime.
-  Status draw(const FrameContext& context, const LitImage& image, const LitBatches& lit);
+  Status add_light(const FrameContext& context, const LitImage& image, const LitBatches& lit) override;
 
  private:
   struct Target {

@@ -261,7 +261,7 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
     ORIEL_TRY_VOID(draw_mirrors_in(within, inside, mirrored));
   } else {
     work.scene_pass.draw_reflected(within.context, mirrored);
-    ORIEL_TRY_VOID(add_lamps(within, inside, mirrored));
+    ORIEL_TRY_VOID(add_light(within, inside, mirrored));
   }
   if (!work.movers.empty()) {
     work.mover_pass.draw_depth(within.context, work.movers);
@@ -270,11 +270,11 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
   return work.glass.draw_see_through(within.context, work.scene_pass, inside, {});
 }
 
-Status ReflectionRenderer::add_lamps(const ReflectionWork& work, const ReflectionTarget& target,
+Status ReflectionRenderer::add_light(const ReflectionWork& work, const ReflectionTarget& target,
                                      const MirroredScene& mirrored) {
-  if (work.lamps == nullptr) return {};
-  ORIEL_TRY_VOID(
-      work.lamps->draw(work.context, LitImage::of(*target.image), {mirrored.shown, true, mirrored.reflective, {}}));
+  if (work.extension == nullptr) return {};
+  ORIEL_TRY_VOID(work.extension->add_light(work.context, LitImage::of(*target.image),
+                                           {mirrored.shown, true, mirrored.reflective, {}}));
   target.bind(work.context.view);
   return {};
 }
@@ -282,13 +282,13 @@ Status ReflectionRenderer::add_lamps(const ReflectionWork& work, const Reflectio
 // The opaque scene in a mirror, with what its own reflectors show.
 Status ReflectionRenderer::draw_mirrors_in(const ReflectionWork& work, const ReflectionTarget& target,
                                            MirroredScene& mirrored) {
-  const auto& [context, scene_pass, mover_pass, movers, glass, lamps] = work;
+  const auto& [context, scene_pass, mover_pass, movers, glass, extension] = work;
   const View& view = context.view;
   const auto in_view = [&](const GpuReflector& r) { return !project_polygon(view.clip_from_pack, r.corners).empty; };
   const auto& planar = context.scene.reflectors();
   if (std::none_of(planar.begin(), planar.end(), in_view) && context.scene.curved_reflectors().empty()) {
     scene_pass.draw_reflected(context, mirrored);
-    return add_lamps(work, target, mirrored);
+    return add_light(work, target, mirrored);
   }
   scene_pass.draw_reflected_depth(context, mirrored);
   ReflectionMarks marks;
@@ -296,7 +296,7 @@ Status ReflectionRenderer::draw_mirrors_in(const ReflectionWork& work, const Ref
   ORIEL_TRY(const auto curved, draw_curved(context, target, marks));
   mirrored.reflective = marks.reflective;
   scene_pass.draw_reflected(context, mirrored);
-  ORIEL_TRY_VOID(add_lamps(work, target, mirrored));
+  ORIEL_TRY_VOID(add_light(work, target, mirrored));
   for (const MarkedReflector& marked : inside) ORIEL_TRY_VOID(draw(work, target, marked, nullptr));
   target.bind(view);
   add_curved(context, curved);

@@ -12,8 +12,8 @@
 
 #include "player/movers/mover_pass.h"
 #include "player/navigation/zone.h"
+#include "player/passes/frame_extension.h"
 #include "player/passes/glass_pass.h"
-#include "player/passes/multi_pass.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
 #include "player/passes/scene_pass.h"
@@ -34,8 +34,10 @@ struct ReflectionWork {
   const MoverPass& mover_pass;
   std::span<const PlacedMover> movers;  // as mirrors show them: in light without shadows of their own
   GlassPass& glass;
-  MultiPass* lamps = nullptr;  // light that the lightmap is without; none: it has all
-  ReflectionWork with(const FrameContext& other) const { return {other, scene_pass, mover_pass, movers, glass, lamps}; }
+  FrameExtension* extension = nullptr;
+  ReflectionWork with(const FrameContext& other) const {
+    return {other, scene_pass, mover_pass, movers, glass, extension};
+  }
 };
 
 // Of a target's stencil.
@@ -79,7 +81,7 @@ class ReflectionRenderer {
   Status draw_mirrored(const ReflectionWork& work, const ReflectionTarget& target, const ReflectedImage& image);
   Status draw_mirrors_in(const ReflectionWork& work, const ReflectionTarget& target, MirroredScene& mirrored);
   // Into the image of a mirror.
-  static Status add_lamps(const ReflectionWork& work, const ReflectionTarget& target, const MirroredScene& mirrored);
+  static Status add_light(const ReflectionWork& work, const ReflectionTarget& target, const MirroredScene& mirrored);
   void compose(const FrameContext& context, const ReflectionTarget& target, const MarkedReflector& marked,
                const ReflectedImage& image) const;
 

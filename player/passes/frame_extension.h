@@ -1,0 +1,41 @@
+// What a program above the player draws in its frames otherwise, or besides.
+#pragma once
+
+#include <set>
+#include <span>
+
+#include "player/gpu/framebuffer.h"
+#include "player/movers/mover_pass.h"
+#include "player/passes/scene_pass.h"
+#include "player/passes/targets.h"
+#include "player/reflections/image_target.h"
+
+namespace oriel {
+
+// What is lit: the frame, or the image of a mirror.
+struct LitImage {
+  const gpu::Framebuffer& from;  // whose depth and stencil tell what is seen
+  const gpu::Texture2d* light = nullptr;
+  const gpu::MultisampleTexture* samples = nullptr;  // in place of it
+  static LitImage of(const FrameTarget& frame);
+  static LitImage of(const ImageTarget& image) { return {image.sharp_framebuffer, &image.sharp, nullptr}; }
+};
+
+// The part of the scene that it shows, of all indices or of those that are bound by GpuScene::bind_shown().
+struct LitBatches {
+  std::span<const DrawBatch> shown;
+  bool all_indices = false;
+  const std::set<std::uint32_t>& reflective;  // materials of reflectors whose images are marked in the stencil
+  SceneWeights weights;
+};
+
+class FrameExtension {
+ public:
+  virtual ~FrameExtension() = default;
+  // Before the images of a frame.
+  virtual Status begin(const FrameContext&, std::span<const PlacedMover>) { return {}; }
+  // Adds light to what the lightmap lights, in the frame and in images of mirrors. Own framebuffers may stay bound.
+  virtual Status add_light(const FrameContext&, const LitImage&, const LitBatches&) { return {}; }
+};
+
+}  // namespace oriel

@@ -1,0 +1,49 @@
+// oriel-study: draws and measures a scene as five published systems did. docs/study/ has a page for each.
+#include <cstdio>
+#include <exception>
+
+#include "study/rooms.h"
+
+namespace oriel::study {
+namespace {
+
+constexpr const char* kFooter = R"(
+Exit codes:
+  0  done
+  1  usage: an unknown option, command or value
+  2  a file cannot be read or written
+  3  the scene or the pack is invalid
+  4  failed at run time: memory, OpenGL
+
+docs/study/ has a page for each method: what it is, what the paper says of it and what is measured here.)";
+
+int fail_with(const Error& error) {
+  std::fprintf(stderr, "oriel-study: error: %s\n", error.text().c_str());
+  return static_cast<int>(error.code);
+}
+
+int run(int argc, char** argv) {
+  gpu::add_shader_sources(shader_sources());
+  ShownArguments arguments;
+  const CommandLine line{ORIEL_VERSION,
+                         {.name = "oriel-study",
+                          .help = "oriel-study: draws and measures a scene as published systems did, to compare with.",
+                          .footer = kFooter,
+                          .options = {},
+                          .commands = {}}};
+  const auto parsed = parse(line, argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) return *code;
+  const Status done = std::get<const ToolCommand*>(parsed)->run();
+  return done ? 0 : fail_with(done.error());
+}
+
+}  // namespace
+}  // namespace oriel::study
+
+int main(int argc, char** argv) {
+  try {
+    return oriel::study::run(argc, argv);
+  } catch (const std::exception& e) {
+    return oriel::study::fail_with({oriel::ErrorCode::kRuntime, e.what(), ""});
+  }
+}
