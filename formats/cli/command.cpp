@@ -238,6 +238,13 @@ std::vector<std::string> Given::texts(const std::string& name) const {
   return found == texts_.end() ? std::vector<std::string>() : found->second.texts;
 }
 
+std::vector<std::string> Given::typed() const {
+  std::vector<std::string> names;
+  for (const auto& [name, texts] : texts_)
+    if (texts.source == Source::kCommandLine) names.push_back(name);
+  return names;
+}
+
 std::vector<std::string> Given::words(const std::vector<Option>& options) const {
   std::vector<std::string> words;
   for (const Option& option : options)

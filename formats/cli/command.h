@@ -27,6 +27,8 @@ class Given {
   bool has(const std::string& name) const { return texts_.contains(name); }
   Source source(const std::string& name) const;
   std::vector<std::string> texts(const std::string& name) const;
+  // Those that the command line itself has.
+  std::vector<std::string> typed() const;
   // The words of a command line that gives these options the same values.
   std::vector<std::string> words(const std::vector<Option>& options) const;
 

@@ -14,6 +14,7 @@
 #include "player/app/stop.h"
 #include "player/navigation/lamps.h"
 #include "player/session/arguments.h"
+#include "player/session/idle_options.h"
 #include "player/session/light_settings.h"
 #include "player/session/method.h"
 #include "player/window/window.h"
@@ -82,6 +83,7 @@ Status play(PlayArguments arguments, std::chrono::steady_clock::time_point start
   ORIEL_TRY(arguments.light_settings, choose_lights(pack.pack, arguments));
   if (const std::string note = other_method(pack.pack, arguments); !note.empty())
     fmt::print(stderr, "oriel-play: {}\n", note);
+  for (const std::string& line : idle_options(pack.pack, arguments)) fmt::print(stderr, "oriel-play: {}\n", line);
   arguments.frame.lights = factors_of(pack.pack, arguments.light_settings);
   if (!arguments.reference.empty()) return play_compare(std::move(pack), arguments);
   return arguments.offscreen ? play_offscreen(std::move(pack), arguments)

@@ -264,15 +264,6 @@ std::vector<Option> window_options(PlayArguments& out) {
   };
 }
 
-std::vector<Option> play_options(PlayArguments& out) {
-  std::vector<Option> options = window_options(out);
-  for (auto&& more : {offscreen_options(out), picture_options(out), reflection_options(kPicture, out),
-                      light_options(out), mover_options(out), live_options(kLights, out.frame.live), path_options(out),
-                      lens_options(kLens, out.lens), compare_options(out)})
-    append(options, more);
-  return options;
-}
-
 std::string contradiction(const PlayArguments& out) {
   const bool measures = !out.stats.empty() || !out.path.empty();
   const bool compares = !out.reference.empty();
@@ -317,6 +308,7 @@ Status settle(const Given& given, PlayArguments& out) {
   if (!out.video.empty() && out.fps == 0) out.fps = kFilmFps;
   if (out.lens.open() && !given.has("--accumulate")) out.lens.frames = kFramesOfLens;
   if (out.panorama && !out.sized) out.width = kPanoramaWidth, out.height = kPanoramaWidth / 2;
+  out.given = given.typed();
   out.toned = given.has("--tonemap"), out.sampled = given.has("--samples"), out.divided = given.has("--split");
   out.frame.halves = out.makes_pictures();
   if (const std::string complaint = settle_method(given, out); !complaint.empty())
@@ -327,6 +319,15 @@ Status settle(const Given& given, PlayArguments& out) {
 }
 
 }  // namespace
+
+std::vector<Option> play_options(PlayArguments& out) {
+  std::vector<Option> options = window_options(out);
+  for (auto&& more : {offscreen_options(out), picture_options(out), reflection_options(kPicture, out),
+                      light_options(out), mover_options(out), live_options(kLights, out.frame.live), path_options(out),
+                      lens_options(kLens, out.lens), compare_options(out)})
+    append(options, more);
+  return options;
+}
 
 Json options_json(const PlayArguments& arguments) {
   PlayArguments copy = arguments;

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "formats/cli/option.h"
 #include "formats/core/json.h"
 #include "formats/core/result.h"
 #include "formats/query/mover_pose.h"
@@ -25,6 +26,7 @@ inline constexpr int kSamples = 4;
 enum class ShownMethod { kOriel, kBastos1999, kDiefenbach1997 };
 
 struct PlayArguments {
+  std::vector<std::string> given;  // long names of options that the command line has
   std::string pack;
   std::string other;     // pack or picture that it is shown beside; none
   float divider = 0.5f;  // of the two, share of the width
@@ -79,6 +81,8 @@ struct PlayArguments {
 inline int samples_of_picture(const PlayArguments& arguments) {
   return arguments.supersample > 1 && !arguments.sampled ? 1 : arguments.frame.samples;
 }
+
+std::vector<Option> play_options(PlayArguments& out);
 
 // Those options that can change a frame, by name.
 Json options_json(const PlayArguments& arguments);

@@ -1,0 +1,145 @@
+#include "player/session/idle_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace oriel {
+namespace {
+
+// Null where the option has an effect.
+using Reason = const char* (*)(const Pack&, const PlayArguments&);
+struct Rule {
+  const char* option;
+  Reason reason;
+};
+
+bool has_maps(const Pack& pack) {
+  return !pack.radiance_maps.empty();
+}
+
+bool draws_maps(const Pack& pack, const PlayArguments& a) {
+  return has_maps(pack) && a.frame.reflections != Reflections::kGeometry && a.frame.reflections != Reflections::kOff;
+}
+
+const char* no_reflections(const Pack& pack, const PlayArguments& a) {
+  if (pack.reflectors.empty() && pack.curved_reflectors.empty()) return "the pack has no reflectors";
+  return a.frame.reflections == Reflections::kOff ? "--reflections off draws none" : nullptr;
+}
+
+const char* no_planar_reflections(const Pack& pack, const PlayArguments& a) {
+  return pack.reflectors.empty() ? "the pack has no planar reflectors" : no_reflections(pack, a);
+}
+
+const char* no_movers(const Pack& pack, const PlayArguments&) {
+  return pack.movers.empty() ? "the pack has no movers" : nullptr;
+}
+
+const char* no_mover_shadows(const Pack& pack, const PlayArguments& a) {
+  if (pack.movers.empty()) return "the pack has no movers";
+  return a.frame.mover_lights == MoverLights::kShadowed ? nullptr : "--mover-lights leaves shadows out";
+}
+
+const char* no_shade(const Pack& pack, const PlayArguments& a) {
+  return a.frame.shade.lights == 0 && !pack.movers.empty() ? "--shade 0 draws none" : no_mover_shadows(pack, a);
+}
+
+// In a window lamps can be dragged.
+const char* no_moved_lamps(const Pack& pack, const PlayArguments& a) {
+  if (pack.light_groups.empty()) return "the pack has no light groups, so its lamps cannot be moved";
+  return a.offscreen && a.moves.empty() && pack.movers.empty() ? "no lamp is moved" : nullptr;
+}
+
+const char* no_window(const Pack&, const PlayArguments& a) {
+  return a.offscreen ? "--offscreen has no window" : nullptr;
+}
+
+bool is_exr(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".exr";
+}
+
+const char* no_exposure(const Pack&, const PlayArguments& a) {
+  if (a.offscreen && (is_exr(a.output) || (a.format == "exr" && !a.output.empty())))
+    return ".exr files hold light, not what is shown";
+  return is_exr(a.reference) ? "--compare with an .exr file is of light" : nullptr;
+}
+
+const Rule kRules[] = {
+    {"--blur",
+     [](const Pack& pack, const PlayArguments& a) {
+       return pack.kernels.empty() ? "the pack has no kernels: its reflectors are mirrors"
+                                   : no_planar_reflections(pack, a);
+     }},
+    {"--exposure", no_exposure},
+    {"--eye-height", no_window},
+    {"--format",
+     [](const Pack&, const PlayArguments& a) -> const char* {
+       return a.output.empty() || std::filesystem::path(a.output).has_extension() ? "it is of files in a folder"
+                                                                                  : nullptr;
+     }},
+    {"--light-points", no_mover_shadows},
+    {"--lightmap-filter",
+     [](const Pack& pack, const PlayArguments&) {
+       return pack.lightmaps.empty() ? "the pack has no lightmap" : nullptr;
+     }},
+    {"--live", no_moved_lamps},
+    {"--live-bounces", no_moved_lamps},
+    {"--live-lights", no_moved_lamps},
+    {"--log-frames", no_window},
+    {"--maps",
+     [](const Pack& pack, const PlayArguments& a) {
+       if (!has_maps(pack)) return "the pack has no radiance maps";
+       return draws_maps(pack, a) ? nullptr : "--reflections draws none of them";
+     }},
+    {"--mover-lights", no_movers},
+    {"--no-mipmaps",
+     [](const Pack& pack, const PlayArguments&) {
+       return pack.textures.empty() && pack.normal_textures.empty() ? "the pack has no textures" : nullptr;
+     }},
+    {"--orders", no_planar_reflections},
+    {"--panel", no_window},
+    {"--pvs",
+     [](const Pack& pack, const PlayArguments&) {
+       return pack.visible_sets.empty() ? "the pack does not know what is seen from where" : nullptr;
+     }},
+    {"--reflections",
+     [](const Pack& pack, const PlayArguments& a) -> const char* {
+       if (pack.reflectors.empty() && pack.curved_reflectors.empty()) return "the pack has no reflectors";
+       const bool needs_maps = a.frame.reflections == Reflections::kMarch;
+       return needs_maps && !has_maps(pack) ? "the pack has no radiance maps: its mirrors are drawn as geometry"
+                                            : nullptr;
+     }},
+    {"--shade", no_mover_shadows},
+    {"--shade-map", no_shade},
+    {"--shade-pixels", no_shade},
+    {"--time",
+     [](const Pack& pack, const PlayArguments&) {
+       const auto moves = [](const auto& one) { return !one.keys.empty(); };
+       return std::none_of(pack.movers.begin(), pack.movers.end(), moves) &&
+                      std::none_of(pack.light_groups.begin(), pack.light_groups.end(), moves)
+                  ? "nothing in the pack is animated"
+                  : nullptr;
+     }},
+    {"--tonemap", no_exposure},
+};
+
+}  // namespace
+
+std::vector<std::string> idle_option_names() {
+  std::vector<std::string> names;
+  for (const Rule& rule : kRules) names.push_back(rule.option);
+  return names;
+}
+
+std::vector<std::string> idle_options(const Pack& pack, const PlayArguments& arguments) {
+  std::vector<std::string> lines;
+  for (const std::string& name : arguments.given)
+    for (const Rule& rule : kRules)
+      if (name == rule.option)
+        if (const char* reason = rule.reason(pack, arguments))
+          lines.push_back(fmt::format("{} has no effect: {}", name, reason));
+  return lines;
+}
+
+}  // namespace oriel
