@@ -65,8 +65,6 @@ Status settle_method(const Given& given, BakeOptions& o) {
     return clash(kMethod, "--reflections without maps", "maps");
   if (given.has("--views") && o.view_scheme != ViewScheme::kHemisphere)
     return clash(kMethod, "planned --views", "hemisphere:N");
-  if (given.has("--map-price"))
-    return clash(kMethod, "--map-price", "none: uniform viewpoints are not chosen by what they show");
   if (given.has("--facets") && o.material.model == KernelModel::kGgx)
     return clash(kMethod, "--facets ggx", "beckmann or gaussian");
   o.ways = WaysWanted::kMaps;

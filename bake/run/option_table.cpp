@@ -30,15 +30,10 @@ std::vector<Option> atlas_options(BakeOptions& o) {
        "Side of the lightmap page in texels. With --atlas uv1 it is the page that the coordinates are meant for; with "
        "auto, everything shall fit on one such page",
        number(o.atlas.resolution, 16, 16384), Use::kRare, "resolution"},
-      {"--max-page", kLightmap, "Largest side of an automatic page. GPUs guarantee 2048, nearly all have 16384",
-       number(o.atlas.max_page, 64, 16384), Use::kRare, "max_page"},
       {"--memory-limit", kLightmap,
        "Memory that the bake may take. With --texel auto what is seen least gets larger texels to keep it; a length "
        "that does not fit is an error that names one that does. Default: half of what is free",
        memory_limit(o), Use::kRare, "memory_limit"},
-      {"--atlas-time-limit", kLightmap,
-       "Seconds after which the rest of the atlas gets plain charts; the pack then depends on the machine. 0: none",
-       number(o.atlas.time_limit_s, 0, 1e9), Use::kRare, "atlas_time_limit_s"},
   };
 }
 
@@ -108,8 +103,8 @@ std::vector<Option> reflection_options(BakeOptions& o) {
   return {
       {"--reflections", kReflections,
        "How planar reflectors show the scene: auto (each by the way whose frames are cheaper), geometry (the player "
-       "draws the mirrored scene: nothing is baked for them), maps (radiance maps). --views, --map-resolution and "
-       "--map-price mean maps",
+       "draws the mirrored scene: nothing is baked for them), maps (radiance maps). --views and --map-resolution mean "
+       "maps",
        choice(o.ways, {{"auto", WaysWanted::kAuto}, {"geometry", WaysWanted::kGeometry}, {"maps", WaysWanted::kMaps}}),
        Use::kEveryday, "reflections", "reflections.md#geometry-or-maps"},
       {"--target", kReflections, "What frames will be drawn on, which decides what is cheaper: cpu, gpu",
@@ -119,7 +114,7 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        "Viewpoints of radiance maps. planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "
        "element: "
        "those that show most of what eyes see in it. hemisphere:N are spread evenly, as published",
-       views(o), Use::kEveryday, "", "reflections.md"},
+       views(o), Use::kRare, "", "reflections.md"},
       {"--memory", kReflections,
        "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it",
        both(o, quantity(o.views.memory_bytes, "SIZE", parse_bytes, bytes_text), o.views.memory_bytes,
@@ -155,11 +150,6 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        "lobe",
        both(o, number(o.views.map_resolution, 0, 4096), o.views.map_resolution, o.planned.map_resolution), Use::kRare,
        "map_resolution"},
-      {"--map-price", kReflections,
-       "What a pixel of a radiance map must show to be captured: solid angle, sr on average over eyes, times "
-       "reflectance (planned). Less gives more and sharper maps: halved, about a third more pixels; 0: all that show "
-       "anything",
-       map_price(o), Use::kRare, "map_price", "reflections.md#which-viewpoints"},
   };
 }
 
@@ -171,11 +161,6 @@ std::vector<Option> transfer_options(BakeOptions& o) {
        number(o.transfer.bands, 2, 6), Use::kRare, "sh_bands"},
       {"--transfer", kMovers, "Whether movers shade themselves: shadowed or unshadowed (as if every one was convex)",
        self_shadow(o), Use::kRare, "transfer_shadowed"},
-      {"--transfer-bounces", kMovers, "Reflections between the parts of a mover", number(o.transfer.bounces, 0, 16),
-       Use::kRare, "transfer_bounces"},
-      {"--clusters", kMovers,
-       "Clusters that a mover's transfer is compressed in: more lose less and cost the player more",
-       number(o.compress.clusters, 1, 256), Use::kRare, "clusters"},
       {"--probe", kMovers,
        "Distance between the probes of the light that movers meet; they are a quarter as far apart where light changes",
        quantity(o.probes.spacing_m, "LENGTH", parse_length, length_text), Use::kRare, "probe_m"},
@@ -210,7 +195,7 @@ std::vector<Option> light_options(ImportOptions& import) {
       {"--hours", kLight,
        "Of --day: from, to and step in hours of solar time (12: the sun is in the meridian), or of a clock that is so "
        "far ahead of UTC, as 8-18/1+02:00; one hour alone as 14.5",
-       hours(import), Use::kEveryday, "hours", "lights.md#sun-and-sky-by-the-hour", "", "--day"},
+       hours(import), Use::kRare, "hours", "lights.md#sun-and-sky-by-the-hour", "", "--day"},
       {"--sky-type", kLight,
        "Of --day: 1 to 15 of ISO 15469 (CIE S 011), 1 to 5 being overcast, 6 to 10 partly cloudy, 11 to 15 clear; 16: "
        "the traditional overcast sky",
@@ -224,12 +209,7 @@ std::vector<Option> light_options(ImportOptions& import) {
       {"--sun-angle", kLight,
        "How large directional lights appear, degrees across: 0.53 gives the sun's soft shadows. Otherwise as the file "
        "says (extras.oriel.angular_diameter_deg), which is a point",
-       number(import.sun_angle_deg, 0, 180), Use::kEveryday, "sun_angle_deg"},
-      {"--light-mirrors", kLight,
-       "Follow point, spot and directional lights by so many mirrors or panes one after the other; 0: not at all, as "
-       "bakers by paths do. What is too faint is left out by itself",
-       number(import.light_mirrors, 0, VirtualLight::kMostMirrors), Use::kRare, "light_mirrors",
-       "radiosity.md#lights-in-mirrors"},
+       number(import.sun_angle_deg, 0, 180), Use::kRare, "sun_angle_deg"},
       {"--ies", kLight,
        "A measured luminaire (IES LM-63, type C) for the point or spot light of a node: it replaces intensity and "
        "cone, the colour stays. Nadir is the node's -Z, horizontal 0 its +X. May be repeated",
@@ -256,7 +236,7 @@ std::vector<Option> scene_options(ImportOptions& import, bool& reproducible) {
       {"--double-sided", kScene,
        "Every material reflects and emits on both sides, as renderers that know no single-sided ones have it: for "
        "models with walls turned the wrong way",
-       flag(import.double_sided), Use::kEveryday, "double_sided"},
+       flag(import.double_sided), Use::kRare, "double_sided"},
       {"--reproducible", kScene,
        "Pin Embree's instruction set, about 15 % slower: with one C library the same bytes on CPUs that differ in AVX "
        "only",
@@ -300,7 +280,7 @@ Status settle(BakeOptions& o, const Given& given) {
   if (!o.transfer.shadowed) o.transfer.bounces = 0;
   o.error_named = given.has("--error");
   // Who says what maps are to be like wants maps.
-  const bool maps_named = given.has("--views") || given.has("--map-resolution") || given.has("--map-price");
+  const bool maps_named = given.has("--views") || given.has("--map-resolution");
   if (maps_named && !given.has("--reflections")) o.ways = WaysWanted::kMaps;
   if (r.samples > 0) {
     r.error = 0;

@@ -140,12 +140,6 @@ OptionValue eyes(BakeOptions& o) {
           }};
 }
 
-OptionValue map_price(BakeOptions& o) {
-  OptionValue value = number(o.planned.pixel_price, 0, 1);
-  value.json = [&o] { return Json(o.view_scheme == ViewScheme::kPlanned ? o.planned.pixel_price : 0); };
-  return value;
-}
-
 OptionValue sky(ImportOptions& o) {
   return {"L|R,G,B|FILE",
           [&o](const std::string& typed) -> Status {

@@ -26,7 +26,6 @@ OptionValue radiosity_form(BakeOptions& o);
 OptionValue parts(BakeOptions& o);  // --only
 OptionValue views(BakeOptions& o);
 OptionValue eyes(BakeOptions& o);
-OptionValue map_price(BakeOptions& o);
 OptionValue self_shadow(BakeOptions& o);
 OptionValue unit(double& unit_m, bool& guess);
 OptionValue light_groups(BakeOptions& o);

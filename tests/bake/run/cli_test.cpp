@@ -263,9 +263,9 @@ TEST_F(BakeCli, PlanTellsAndFailsWhereFindingsAre) {
   EXPECT_TRUE(fs::exists(folder_ / "plan.json"));
   EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict"), 5) << "a room of 0.55 m";
   EXPECT_NE(log().find("one unit of the file is taken to be 10 m"), std::string::npos) << log();
-  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict --texel 1mm --max-page 64"), 5) << "texels";
+  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict --texel 0.1mm"), 5) << "texels";
   EXPECT_NE(log().find("D7 texel density, warning: --texel"), std::string::npos) << log();
-  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --texel 1mm --max-page 64"), 0) << "told, not strict";
+  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --texel 0.1mm"), 0) << "told, not strict";
   ASSERT_EQ(run("oriel-bake plan cornell.glb --texel 2cm --error 1% --time 0.001s"), 0) << log();
   EXPECT_NE(log().find("INFEASIBLE: --time 0.001 s"), std::string::npos) << log();
   EXPECT_EQ(run("oriel-bake plan missing.glb"), 2);
