@@ -276,6 +276,7 @@ std::vector<Option> bake_options(BakeOptions& o) {
 
 Status settle(BakeOptions& o, const Given& given) {
   RadiosityOptions& r = o.radiosity;
+  o.given = given.typed();
   ORIEL_TRY_VOID(settle_method(given, o));
   if (!o.transfer.shadowed) o.transfer.bounces = 0;
   o.error_named = given.has("--error");

@@ -45,8 +45,9 @@ struct BakeOptions {
   BakeOptions& operator=(const BakeOptions&);
   BakeOptions& operator=(BakeOptions&&) noexcept;
 
-  std::filesystem::path scene;   // .glb or .gltf
-  std::filesystem::path output;  // .oriel
+  std::vector<std::string> given;  // long names of options that the command line has
+  std::filesystem::path scene;     // .glb or .gltf
+  std::filesystem::path output;    // .oriel
   ImportOptions import;
   bool guess_unit = true;  // where the scene's numbers cannot be metres (visibility/scene_unit.h)
   AtlasOptions atlas;

@@ -9,6 +9,7 @@
 #include "bake/run/forecast.h"
 #include "bake/run/frosted_panes.h"
 #include "bake/run/group_light.h"
+#include "bake/run/idle_options.h"
 #include "bake/run/inputs.h"
 #include "bake/run/lamps.h"
 #include "bake/run/movers.h"
@@ -74,6 +75,7 @@ class Bake {
     ORIEL_TRY_VOID(find_reflectors());
     ORIEL_TRY_VOID(find_visible_sets());
     ORIEL_TRY_VOID(plan_views());
+    tell_idle_options();
     ORIEL_TRY_VOID(make_transfer());
     ORIEL_TRY_VOID(fit_to_time());
     ORIEL_TRY_VOID(foretell_reflections());
@@ -145,6 +147,13 @@ class Bake {
     }
     if (!planned_.has_images()) return {};
     return timed_("mips", [&](auto&) { return make_mips(prepared_.imported->scene, context_); });
+  }
+
+  void tell_idle_options() {
+    const auto is_sun = [](const Light& light) { return light.type == LightType::kDirectional; };
+    const SceneFacts facts{std::any_of(scene().lights.begin(), scene().lights.end(), is_sun), !prepared_.movers.empty(),
+                           !planned_.empty(), !planned_.plan.maps.empty(), context_.units != nullptr};
+    for (const std::string& line : idle_options(options_, facts)) context_.warning(line);
   }
 
   Status find_visible_sets() {

@@ -1,0 +1,73 @@
+#include "bake/run/idle_options.h"
+
+namespace oriel {
+namespace {
+
+// Null where the option has an effect.
+struct IdleRule {
+  const char* option;
+  const char* (*reason)(const BakeOptions&, const SceneFacts&);
+};
+
+const char* no_sky_file(const BakeOptions& o, const SceneFacts&) {
+  return o.import.sky_file.empty() ? "--sky names no file" : nullptr;
+}
+
+const char* no_movers(const BakeOptions& o, const SceneFacts& facts) {
+  if (!facts.movers) return "nothing in the scene moves";
+  return o.with_transfer ? nullptr : "--only leaves movers out";
+}
+
+const char* no_reflectors(const BakeOptions& o, const SceneFacts& facts) {
+  if (!o.with_radiance) return "--only leaves reflections out";
+  return facts.reflectors ? nullptr : "the scene has no reflectors that eyes see";
+}
+
+const char* no_maps(const BakeOptions& o, const SceneFacts& facts) {
+  if (const char* reason = no_reflectors(o, facts)) return reason;
+  return facts.maps ? nullptr : "no reflector has radiance maps (--reflections maps)";
+}
+
+const IdleRule kRules[] = {
+    {"--map-resolution", no_maps},
+    {"--max-reflectors", no_reflectors},
+    {"--memory", no_maps},
+    {"--orders", no_maps},
+    {"--probe", no_movers},
+    {"--reflections", no_reflectors},
+    {"--reuse-error",
+     [](const BakeOptions&, const SceneFacts& facts) { return facts.cached ? nullptr : "there is no --cache"; }},
+    {"--sh-bands", no_movers},
+    {"--sky-rotation", no_sky_file},
+    {"--sky-scale", no_sky_file},
+    {"--sun-angle",
+     [](const BakeOptions&, const SceneFacts& facts) {
+       return facts.suns ? nullptr : "the scene has no directional lights";
+     }},
+    {"--target",
+     [](const BakeOptions& o, const SceneFacts& facts) {
+       return o.ways == WaysWanted::kAuto ? no_reflectors(o, facts) : "--reflections decides";
+     }},
+    {"--transfer", no_movers},
+    {"--views", no_maps},
+};
+
+}  // namespace
+
+std::vector<std::string> idle_bake_option_names() {
+  std::vector<std::string> names;
+  for (const IdleRule& rule : kRules) names.push_back(rule.option);
+  return names;
+}
+
+std::vector<std::string> idle_options(const BakeOptions& options, const SceneFacts& facts) {
+  std::vector<std::string> lines;
+  for (const std::string& name : options.given)
+    for (const IdleRule& rule : kRules)
+      if (name == rule.option)
+        if (const char* reason = rule.reason(options, facts))
+          lines.push_back(fmt::format("{} has no effect: {}", name, reason));
+  return lines;
+}
+
+}  // namespace oriel

@@ -1,0 +1,26 @@
+// Options that change nothing in a scene and with the other options: a user who gave one is told.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bake/run/options.h"
+
+namespace oriel {
+
+// What of a scene decides whether an option has an effect.
+struct SceneFacts {
+  bool suns = false;        // directional lights
+  bool movers = false;      // nodes that move
+  bool reflectors = false;  // planar or curved ones that eyes see
+  bool maps = false;        // radiance maps are planned
+  bool cached = false;      // there is a cache of earlier bakes
+};
+
+// A line for each option of options.given that changes nothing, with the reason.
+std::vector<std::string> idle_options(const BakeOptions& options, const SceneFacts& facts);
+
+// The options that can be idle.
+std::vector<std::string> idle_bake_option_names();
+
+}  // namespace oriel
