@@ -16,6 +16,18 @@ constexpr double kLeastLift = 1e-5;   // of the radius
 constexpr double kDirections = 512;   // cells of plane normals along each axis of [0, 1]
 constexpr double kCellPerPlace = 64;  // cells of plane distances
 
+// The entries of a sorted list whose first member has that value. Clang 14 refuses the iterators of
+// std::ranges::equal_range, and the fuzzers are compiled by it.
+template <class Entry, class Key>
+std::span<const Entry> with_key(const std::vector<Entry>& sorted, const std::type_identity_t<Key>& key,
+                                Key Entry::*member) {
+  const auto first = std::lower_bound(sorted.begin(), sorted.end(), key,
+                                      [member](const Entry& entry, const Key& k) { return entry.*member < k; });
+  const auto last = std::upper_bound(first, sorted.end(), key,
+                                     [member](const Key& k, const Entry& entry) { return k < entry.*member; });
+  return {first, last};
+}
+
 // Moves patches, and what of their object hangs on them.
 class Lifter {
  public:
@@ -34,7 +46,7 @@ class Lifter {
     const DVec3 from(scene_.positions[scene_.triangles[layer.triangles.front()].x]);
     if (of_vertex_.empty()) find_triangles();
     for (const std::uint32_t v : vertices_at(layer))
-      for (const auto& [vertex, t] : std::ranges::equal_range(of_vertex_, v, {}, &OfVertex::first))
+      for (const auto& [vertex, t] : with_key(of_vertex_, v, &OfVertex::first))
         for (int k = 0; k < 3; ++k)
           if (glm::dot(n, DVec3(scene_.positions[scene_.triangles[t][k]]) - from) < -one_place) return true;
     return false;
@@ -69,7 +81,7 @@ class Lifter {
     for (const std::uint32_t t : layer.triangles)
       for (int k = 0; k < 3; ++k) {
         const Vec3& corner = scene_.positions[scene_.triangles[t][k]];
-        for (const auto& [hash, v] : std::ranges::equal_range(at_, PositionHash()(corner), {}, &Place::first))
+        for (const auto& [hash, v] : with_key(at_, PositionHash()(corner), &Place::first))
           if (scene_.positions[v] == corner && same_object(surface_of_[v], of)) vertices.insert(v);
       }
     return vertices;
@@ -132,8 +144,7 @@ struct Cells {
   }
 
   std::span<const Planar> other_side_of(const Layer& layer) const {
-    const auto found = std::ranges::equal_range(planar, cell_of(layer.triangles.front(), -1), {}, &Planar::cell);
-    return {found.begin(), found.end()};
+    return with_key(planar, cell_of(layer.triangles.front(), -1), &Planar::cell);
   }
 };
 
