@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/plan/pilot.h"
+#include "bake/run/assemble.h"
+#include "bake/run/fit_maps.h"
 #include "formats/pack/writer.h"
 
 namespace oriel {
@@ -15,6 +16,21 @@ constexpr double kMissed = 1.5;             // the error asked for by so much: r
 constexpr double kSlowPaths = 1.5;          // a ray of verification takes longer than a gathered one
 constexpr double kNominalError = 0.02;      // of pilots where time alone limits the work
 constexpr double kLeastAskedError = 1e-3;   // what a bake limited by time alone asks for
+
+// Of a map's bytes, what a pack stores.
+constexpr double kStoredShare = 0.6;
+
+// Mesh, materials and textures alone: whole with lightmaps for the atlas's pages.
+Pack pack_of_scene(const Scene& scene, const Atlas& atlas) {
+  Pack pack;
+  pack.mesh = assemble_mesh(scene, atlas).mesh;
+  MaterialMaps none;
+  none.summaries.resize(scene.materials.size());
+  none.kernel.assign(scene.materials.size(), -1);
+  none.fresnel_map.assign(scene.materials.size(), -1);
+  assemble_materials(scene, none, pack);
+  return pack;
+}
 
 // A small bake of the lightmap.
 struct LightmapPilot {
@@ -111,6 +127,21 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
   return c;
 }
 
+// Radiance and surround maps: planned as the bake plans them, a few of their pixels captured as the bake does to tell
+// its own time.
+Result<Component> predict_reflections(const CensusInput& in, Context& context) {
+  BakeOptions options = in.options;
+  options.planned.memory_bytes = options.views.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
+  Pack dark;
+  const BakeTask task{options, in.prepared, in.lights, context, dark};
+  ORIEL_TRY(PlannedReflections planned, plan_reflections(task, in.reflections, HUGE_VAL));
+  if (planned.has_images()) ORIEL_TRY_VOID(time_reflections(task, dark, planned));
+  Component c{.name = "radiance", .seconds = planned.seconds + planned.capture_s};
+  c.raw_bytes = static_cast<std::uint64_t>(kMapBytesPerPixel * (planned.planar_pixels() + planned.surround_pixels()));
+  c.bytes = static_cast<std::uint64_t>(kStoredShare * static_cast<double>(c.raw_bytes));
+  return c;
+}
+
 void add_limits(const CensusInput& in, Prediction& p) {
   const Component* light = nullptr;
   for (const Component& c : p.components)
@@ -180,9 +211,7 @@ Result<Prediction> predict(const CensusInput& in, const Census& census, double s
     p.components.front().bytes = pilots[1].scene_bytes;
     p.components.push_back(extrapolate(in, pilots));
     if (in.options.with_radiance && !in.reflections.empty()) {
-      ORIEL_TRY(
-          Component radiance,
-          pilot_reflections(in, {*in.prepared.accel, in.lights, pilots[1].atlas, pilots[1].radiosity.pages}, context));
+      ORIEL_TRY(Component radiance, predict_reflections(in, context));
       p.components.push_back(std::move(radiance));
     }
   }

@@ -8,7 +8,7 @@ namespace oriel {
 struct Component {
   std::string name;  // "preparation", "radiosity", "material", "radiance", "movers"
   double seconds = 0;
-  std::uint64_t rays = 0;
+  std::uint64_t rays = 0;       // of radiosity
   std::uint64_t bytes = 0;      // in the pack
   std::uint64_t raw_bytes = 0;  // of maps, as --memory counts them
   double error = -1;            // relative, of what it shows; < 0: not predicted
@@ -40,8 +40,8 @@ TexelWork fit_work(const double (&texels)[2], const double (&work)[2]);
 
 // Bakes the lightmap with texels 8 and 4 times as large (1/64 and 1/16 of them; finer ones for small scenes) and
 // extrapolates rays, bytes and squared errors by TexelWork (rays by texels where their limit ends the pilot); seconds
-// are rays over the rate measured in the finer one. Reflections: pilot.h. Movers are not predicted. `spent`: seconds
-// that preparation took. Error kStopped and those of the stages.
+// are rays over the rate measured in the finer one. Reflections are planned and timed as the bake itself does. Movers
+// are not predicted. `spent`: seconds that preparation took. Error kStopped and those of the stages.
 Result<Prediction> predict(const CensusInput& in, const Census& census, double spent, Context& context);
 
 }  // namespace oriel
