@@ -297,7 +297,7 @@ vec3 reflectance_from_table(sampler2D tables, int row, int count, float cos_thet
 vec2 sphere_map_uv(float cos_theta, vec2 around) {
   return 0.5 + 0.5 * sqrt(1.0 - clamp(cos_theta, 0.0, 1.0)) * around;
 }
-`;var Zt=`// The shading equation of docs/conventions.md: L = kd (1 - max R) / pi E + S + emission.
+`;var Zt=`// The shading equation of docs/notes/conventions.md: L = kd (1 - max R) / pi E + S + emission.
 const float kPi = 3.14159265358979323846;
 
 float max_channel(vec3 v) { return max(v.r, max(v.g, v.b)); }
