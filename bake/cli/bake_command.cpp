@@ -203,7 +203,7 @@ ToolCommand bake_command(BakeSession& session) {
       {{"--cache", "Run",
         "Folder of finished units of work: a bake that was killed, or is repeated after a change, computes only what "
         "is not there. Default: .oriel-cache beside the pack",
-        path(args->cache, "DIR"), Use::kEveryday, "", "cache.md"},
+        path(args->cache, "DIR"), Use::kEveryday, "", "pipelines.md#the-cache"},
        {"--no-cache", "Run", "Compute everything, and keep nothing but the pack", flag(args->no_cache), Use::kRare, "",
         "", "--cache"},
        {"--report", "Run",

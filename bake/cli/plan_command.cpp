@@ -76,7 +76,7 @@ ToolCommand plan_command(BakeSession& session) {
       .footer = kPlanFooter,
       .options = {
           scene_argument(args->bake.scene),
-          {"--json", "Run", "Write the plan as JSON (docs/plan.md); - is stdout, instead of the text",
+          {"--json", "Run", "Write the plan as JSON (docs/notes/plan.md); - is stdout, instead of the text",
            path(args->json, "FILE|-"), Use::kEveryday},
           {"--no-pilot", "Run", "Predict nothing: no small bakes, an answer in seconds", flag(args->pilot, false),
            Use::kEveryday},
@@ -89,7 +89,7 @@ ToolCommand plan_command(BakeSession& session) {
           {"--cache", "Run",
            "Folder of finished units of work, for plans and bakes. Default: .oriel-cache in this folder, if there "
            "is one",
-           path(args->cache, "DIR"), Use::kRare, "", "cache.md"}}};
+           path(args->cache, "DIR"), Use::kRare, "", "pipelines.md#the-cache"}}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };

@@ -20,12 +20,12 @@ std::vector<Option> atlas_options(BakeOptions& o) {
        "rooms; what is far or unseen gets larger ones. Smaller texels show finer shadows. Time and size grow with the "
        "inverse square",
        or_auto(o.choose_texel, "LENGTH", quantity(o.atlas.texel_m, "", parse_length, length_text)), Use::kEveryday,
-       "texel_m", "atlas.md#texels-where-people-look"},
+       "texel_m", "notes/atlas.md"},
       {"--atlas", kLightmap,
        "Where lightmap coordinates come from: auto (charts of our own) or uv1 (the artist's "
        "TEXCOORD_1, where overlaps are an error)",
        choice(o.atlas.source, {{"auto", AtlasOptions::Source::kAuto}, {"uv1", AtlasOptions::Source::kUv1}}), Use::kRare,
-       "atlas", "atlas.md"},
+       "atlas", "notes/atlas.md"},
       {"--resolution", kLightmap,
        "Side of the lightmap page in texels. With --atlas uv1 it is the page that the coordinates are meant for; with "
        "auto, everything shall fit on one such page",
@@ -44,13 +44,13 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "The error asked for, as people see it: root mean square over the pixels that eyes in the scene see, relative, "
        "dark ones to a tenth of the mean. Steps of 1 to 2 % are what one can just see. Work stops there. Where none is "
        "given, it also stops when a scene has had its share of rays (a minute or two), with the error stated then",
-       quantity(r.error, "SHARE", parse_fraction, share_text), Use::kEveryday, "error",
-       "radiosity.md#the-error-people-see"},
+       quantity(r.error, "SHARE", parse_fraction, share_text), Use::kEveryday, "error", "oriel-bake.md#accuracy"},
       {"--time", kLightmap,
        "Wall clock of the whole bake. The lightmap is refined for what its other parts leave, reflections get fewer "
        "pixels where they would take half of it. With --error, whichever comes first. The pack then depends on the "
        "machine",
-       quantity(o.time_s, "TIME", parse_duration, time_text), Use::kEveryday, "time_s", "plan.md#time"},
+       quantity(o.time_s, "TIME", parse_duration, time_text), Use::kEveryday, "time_s",
+       "pipelines.md#a-bake-within-a-time"},
       {"--samples", kLightmap,
        "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two", samples(o),
        Use::kRare, "samples", "", "--error"},
@@ -62,13 +62,13 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "How light is computed: cached (bounces kept in the lightmap, one final gather, filtered: some hundred times "
        "less work) or reference (unbiased paths from every texel, to check the other against)",
        choice(r.estimator, {{"cached", Estimator::kCached}, {"reference", Estimator::kReference}}), Use::kRare,
-       "estimator", "radiosity.md"},
+       "estimator", "notes/radiosity.md"},
       {"--reuse-error", kLightmap,
        "After an edit of the scene: keep the light and the radiance maps of the last whole bake in the cache, with "
        "these options, where the edit changes them by no more than that, relative. The error that this brings is "
        "measured and stated. The pack then depends on the cache. Default: all is baked",
        quantity(r.reuse_error, "SHARE", parse_fraction, share_text), Use::kRare, "reuse_error",
-       "cache.md#an-edit-that-changes-little"},
+       "pipelines.md#after-an-edit"},
       {"--bounces", kLightmap,
        "Count so many reflections only; 0: all of them. Fewer darken the scene; for comparing with bakers that stop "
        "there",
@@ -84,18 +84,18 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
       {"--detail", kLightmap,
        "Where light changes within texels, at contacts and edges of shadows, the cells between them are divided into "
        "up to so many steps a side; 1: never",
-       detail_steps(o), Use::kRare, "detail", "radiosity.md"},
+       detail_steps(o), Use::kRare, "detail", "notes/radiosity.md"},
       {"--radiosity", kLightmap,
        "How diffuse light is shown: texture (the lightmap), or as Bastos et al. 1999 had it too, vertices (colours of "
        "a "
        "mesh that is divided until it shows the lightmap to that error, --error where none is given, or to a texel). "
        "The lightmap stays in the pack",
-       radiosity_form(o), Use::kRare, "radiosity", "radiosity.md#vertex-colours"},
+       radiosity_form(o), Use::kRare, "radiosity", "notes/radiosity.md"},
       {"--directional", kLightmap,
        "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material has a "
        "normal map), on, off. Costs a tenth more variance and about 4 bytes a texel",
        choice(o.directional, {{"auto", Directional::kAuto}, {"on", Directional::kOn}, {"off", Directional::kOff}}),
-       Use::kRare, "directional", "conventions.md#directional-lightmaps"},
+       Use::kRare, "directional", "notes/conventions.md"},
   };
 }
 
@@ -106,15 +106,15 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        "draws the mirrored scene: nothing is baked for them), maps (radiance maps). --views and --map-resolution mean "
        "maps",
        choice(o.ways, {{"auto", WaysWanted::kAuto}, {"geometry", WaysWanted::kGeometry}, {"maps", WaysWanted::kMaps}}),
-       Use::kEveryday, "reflections", "reflections.md#geometry-or-maps"},
+       Use::kEveryday, "reflections", "oriel-bake.md#reflections"},
       {"--target", kReflections, "What frames will be drawn on, which decides what is cheaper: cpu, gpu",
        choice(o.target, {{"cpu", DrawnOn::kCpu}, {"gpu", DrawnOn::kGpu}}), Use::kRare, "target",
-       "reflections.md#geometry-or-maps"},
+       "oriel-bake.md#reflections"},
       {"--views", kReflections,
        "Viewpoints of radiance maps. planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "
        "element: "
        "those that show most of what eyes see in it. hemisphere:N are spread evenly, as published",
-       views(o), Use::kRare, "", "reflections.md"},
+       views(o), Use::kRare, "", "notes/reflections.md"},
       {"--memory", kReflections,
        "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it",
        both(o, quantity(o.views.memory_bytes, "SIZE", parse_bytes, bytes_text), o.views.memory_bytes,
@@ -130,7 +130,7 @@ std::vector<Option> reflection_options(BakeOptions& o) {
       {"--eyes", kReflections,
        "Whose views texels and reflections are made for: walk (people on the floors that the cameras can walk to), box "
        "(anywhere in the scene), or a file with lines of x y z",
-       eyes(o), Use::kRare, "", "reflections.md#which-viewpoints"},
+       eyes(o), Use::kRare, "", "notes/reflections.md"},
       {"--eye-height", kReflections,
        "How high people's eyes are over the floor, with which their steps, width and reach go. auto: 1.6 m, unless the "
        "scene's cameras or a guessed unit tell of larger or smaller people",
@@ -141,7 +141,7 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        "scenes of 500 000 triangles and more, where it leaves out a quarter), on, off",
        choice(o.visible_sets,
               {{"auto", VisibleSetsWanted::kAuto}, {"on", VisibleSetsWanted::kOn}, {"off", VisibleSetsWanted::kOff}}),
-       Use::kRare, "visible_sets", "visibility.md"},
+       Use::kRare, "visible_sets", "notes/visibility.md"},
       {"--orders", kReflections,
        "Mirrors that a reflection goes by: 1 shows a mirror in a mirror as its diffuse light only",
        number(o.sight.orders, 1, 16), Use::kRare, "orders"},
@@ -191,17 +191,18 @@ std::vector<Option> light_options(ImportOptions& import) {
       {"--day", kLight,
        "Sun and sky of a day and place, instead of a sky: date, degrees north and east, and where north is, degrees "
        "clockwise from -Z as seen from above. Each of --hours is a light group, which oriel-play --hour shows",
-       day(import), Use::kEveryday, "day", "lights.md#sun-and-sky-by-the-hour", "--sky"},
+       day(import), Use::kEveryday, "day", "oriel-bake.md#sun-and-sky-by-the-hour", "--sky"},
       {"--hours", kLight,
        "Of --day: from, to and step in hours of solar time (12: the sun is in the meridian), or of a clock that is so "
        "far ahead of UTC, as 8-18/1+02:00; one hour alone as 14.5",
-       hours(import), Use::kRare, "hours", "lights.md#sun-and-sky-by-the-hour", "", "--day"},
+       hours(import), Use::kRare, "hours", "oriel-bake.md#sun-and-sky-by-the-hour", "", "--day"},
       {"--sky-type", kLight,
        "Of --day: 1 to 15 of ISO 15469 (CIE S 011), 1 to 5 being overcast, 6 to 10 partly cloudy, 11 to 15 clear; 16: "
        "the traditional overcast sky",
-       number(import.day.sky_type, 1, 16), Use::kRare, "sky_type", "lights.md#sun-and-sky-by-the-hour", "", "--day"},
+       number(import.day.sky_type, 1, 16), Use::kRare, "sky_type", "oriel-bake.md#sun-and-sky-by-the-hour", "",
+       "--day"},
       {"--ground", kLight, "Of --day: reflectance of the level ground that lies below the horizon",
-       number(import.day.ground, 0, 1), Use::kRare, "ground", "lights.md#sun-and-sky-by-the-hour", "", "--day"},
+       number(import.day.ground, 0, 1), Use::kRare, "ground", "oriel-bake.md#sun-and-sky-by-the-hour", "", "--day"},
       {"--sky-scale", kLight, "Radiance in cd/m² of a 1 in the sky's file", number(import.sky_scale, 0, 1e30),
        Use::kRare, "sky_scale"},
       {"--sky-rotation", kLight, "Turns the sky's file, counter-clockwise seen from above, degrees",
@@ -222,11 +223,11 @@ std::vector<Option> mover_options(ImportOptions& import) {
       {"--mover", kMovers,
        "A node that moves, with what is below it, beside those that the file marks (extras.oriel.mover) or animates. "
        "May be repeated",
-       texts(import.movers, "NODE"), Use::kEveryday, "movers", "movers.md"},
+       texts(import.movers, "NODE"), Use::kEveryday, "movers", "scenes.md#movers"},
       {"--move", kMovers,
        "Puts a mover, or the middle of what shines of a node, there (world metres) and turns it about up by degrees, "
        "before anything is computed. May be repeated",
-       moves(import.moves), Use::kRare, "moves", "lights.md#lamps-that-move"}};
+       moves(import.moves), Use::kRare, "moves", "oriel-play.md#moving-lamps-and-movers"}};
 }
 
 std::vector<Option> scene_options(ImportOptions& import, bool& reproducible) {
@@ -253,7 +254,7 @@ Option unit_option(ImportOptions& import, bool& guess) {
       unit(import.unit_m, guess),
       Use::kRare,
       "unit_m",
-      "conventions.md"};
+      "scenes.md#units"};
 }
 
 std::vector<Option> bake_options(BakeOptions& o) {
@@ -264,7 +265,7 @@ std::vector<Option> bake_options(BakeOptions& o) {
                      "Lamps whose light is kept apart, so that the player switches, dims and colours them: marked (as "
                      "the file's nodes say, extras.oriel.light_group), off, auto (what hangs on one node), each (every "
                      "lamp), or a JSON file of groups and their nodes",
-                     light_groups(o), Use::kEveryday, "light_groups", "lights.md"});
+                     light_groups(o), Use::kEveryday, "light_groups", "oriel-bake.md#light-groups"});
   append(options, reflection_options(o));
   append(options, method_options(kReflections, o));
   append(options, mover_options(o.import));

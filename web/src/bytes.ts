@@ -1,4 +1,4 @@
-// Little-endian bytes with bounds checks, as docs/format.md has them. Every byte is treated as hostile.
+// Little-endian bytes with bounds checks, as docs/notes/format.md has them. Every byte is treated as hostile.
 
 export class PieceError extends Error {}
 

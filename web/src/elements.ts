@@ -1,4 +1,4 @@
-// Elements of sections, byte by byte (docs/format.md). Each is refused where a byte is not as it must be.
+// Elements of sections, byte by byte (docs/notes/format.md). Each is refused where a byte is not as it must be.
 import { halfToFloat } from './bytes';
 import type { ByteReader } from './bytes';
 import type {

@@ -1,4 +1,4 @@
-// Movers and the light field that they move through, byte by byte (docs/format.md).
+// Movers and the light field that they move through, byte by byte (docs/notes/format.md).
 import { halfToFloat } from './bytes';
 import { exponent, list, readMesh, readMotion, vec3 } from './elements';
 import type { ByteReader } from './bytes';

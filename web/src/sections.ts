@@ -1,4 +1,4 @@
-// The sections of a piece, which has the format of a pack (docs/format.md), and whether they fit together.
+// The sections of a piece, which has the format of a pack (docs/notes/format.md), and whether they fit together.
 import { decompress } from 'fzstd';
 import { ByteReader, PieceError } from './bytes';
 import {
@@ -41,7 +41,7 @@ function readSection(kind: string, count: number, r: ByteReader, out: Sections):
 
 const magic = [0x8f, 0x4f, 0x52, 0x49, 0x0d, 0x0a, 0x1a, 0x0a];
 
-/** The sections of a piece. Throws PieceError where a byte is not as docs/format.md has it. */
+/** The sections of a piece. Throws PieceError where a byte is not as docs/notes/format.md has it. */
 export function readPiece(bytes: Uint8Array, name: string): Sections {
   const fail = (text: string): never => { throw new PieceError(`${name}: ${text}`); };
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);

@@ -1,4 +1,4 @@
-// What a piece holds, as the viewer uses it; docs/format.md tells what the numbers mean.
+// What a piece holds, as the viewer uses it; docs/notes/format.md tells what the numbers mean.
 import type { Vec3 } from './vec';
 
 export interface Part { name: string; first: number; count: number; material: number; page: number; }
