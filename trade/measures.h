@@ -18,7 +18,7 @@ struct BakeCost {
   std::uint64_t bytes = 0;  // of the pack; 0: there is none
 };
 
-// Over texels that both packs baked. All but noise are net of it, in quadrature (docs/metrics.md).
+// Over texels that both packs baked. All but noise are net of it, in quadrature (docs/notes/metrics.md).
 struct TexelError {
   std::uint64_t texels = 0;
   double rel_rmse = 0, n_rmse = 0;

@@ -76,7 +76,7 @@ ToolCommand plan_command(BakeSession& session) {
       .footer = kPlanFooter,
       .options = {
           scene_argument(args->bake.scene),
-          {"--json", "Run", "Write the plan as JSON (docs/plan.md); - is stdout, instead of the text",
+          {"--json", "Run", "Write the plan as JSON (docs/notes/plan.md); - is stdout, instead of the text",
            path(args->json, "FILE|-"), Use::kEveryday},
           {"--no-pilot", "Run", "Predict nothing: no small bakes, an answer in seconds", flag(args->pilot, false),
            Use::kEveryday},

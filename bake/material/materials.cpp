@@ -33,7 +33,7 @@ void choose_image_lobe(MaterialSummary& s, float base_roughness) {
   s.alpha = s.roughness * s.roughness;
 }
 
-// The factors alone (docs/conventions.md, "Materials").
+// The factors alone (docs/notes/conventions.md, "Materials").
 MaterialSummary from_factors(const SceneMaterial& m) {
   MaterialSummary s;
   s.base_color = m.base_color;

@@ -1,5 +1,5 @@
 // `oriel-bake plan`: what a bake of a scene would model, what it would leave out and why, what is likely wrong with the
-// scene, and what the bake would cost (docs/plan.md).
+// scene, and what the bake would cost (docs/notes/plan.md).
 #pragma once
 
 #include "bake/plan/census.h"
@@ -21,7 +21,7 @@ struct ScenePlan {
 // take are a finding; automatic ones stand in. Errors as the stages give them.
 Result<ScenePlan> make_plan(const BakeOptions& options, bool with_pilot, Context& context);
 
-// For people, and for programs: docs/plan.md lists the fields.
+// For people, and for programs: docs/notes/plan.md lists the fields.
 std::string plan_text(const ScenePlan& plan);
 std::string plan_as_json(const ScenePlan& plan);
 

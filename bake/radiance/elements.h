@@ -22,7 +22,7 @@ std::vector<Element> covered_elements(const Scene& scene, const FoundReflector& 
 // Pixels of a map of the element whose longer side has `resolution`: square where neither side is too short.
 UVec2 map_size(const Element& element, std::uint32_t resolution);
 
-inline constexpr std::uint64_t kMapBytesPerPixel = 4;  // of a map in a pack, at most (docs/format.md)
+inline constexpr std::uint64_t kMapBytesPerPixel = 4;  // of a map in a pack, at most (docs/notes/format.md)
 inline std::uint64_t map_bytes(std::uint32_t width, std::uint32_t height) {
   return kMapBytesPerPixel * width * height;
 }

@@ -1,5 +1,5 @@
-// What shines on frosted panes, for who sees them from behind: their facets spread it (docs/materials.md, "Frosted
-// panes").
+// What shines on frosted panes, for who sees them from behind: their facets spread it (docs/notes/materials.md,
+// "Frosted panes").
 #pragma once
 
 #include "bake/radiance/emitters.h"

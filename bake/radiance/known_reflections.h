@@ -1,5 +1,5 @@
-// What a bake leaves of its reflections for the next one, after an edit that may hardly change them (docs/cache.md).
-// Pixels are not among it: they are the store's units, under the inputs that capture had.
+// What a bake leaves of its reflections for the next one, after an edit that may hardly change them
+// (docs/notes/cache.md). Pixels are not among it: they are the store's units, under the inputs that capture had.
 #pragma once
 
 #include <optional>

@@ -98,7 +98,7 @@ double storage_error(const Pack& pack) {
     for (const LightmapPage& page : pack.lightmaps) {
       float largest = 0;
       for (const Vec3& e : page.irradiance) largest = std::max(largest, max_component(e));
-      // docs/format.md: the brightest lies in [2^14, 2^15).
+      // docs/notes/format.md: the brightest lies in [2^14, 2^15).
       const float scale = largest > 0 ? std::ldexp(1.0f, std::ilogb(largest) - 14) : 1.0f;
       for (std::size_t i = 0; i < page.irradiance.size(); ++i)
         for (int c = 0; c < 3 && page.state[i] == TexelState::kValid; ++c) body(page.irradiance[i][c], scale);

@@ -12,7 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kLeastTriangles =
-    500'000;  // docs/visibility.md: sets of fewer cost the bake more than they save frames
+    500'000;  // docs/notes/visibility.md: sets of fewer cost the bake more than they save frames
 // Images of reflectors are made of fewer at once.
 constexpr std::size_t kLeastReflected = 20'000;
 constexpr double kMostSeen = 0.75;  // of the triangles: more is next to all

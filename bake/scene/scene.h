@@ -1,4 +1,4 @@
-// A scene as the baker sees it: plain structs, everything checked (docs/conventions.md).
+// A scene as the baker sees it: plain structs, everything checked (docs/notes/conventions.md).
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@ namespace oriel {
 
 // Reflection parameters at a point. Unlit materials take no part in light transport: only base_color is set and
 // coverage is 0. Diffuse albedo kd and specular lobe are those of glTF 2.0 appendix B (metallic-roughness), see
-// docs/conventions.md.
+// docs/notes/conventions.md.
 struct ShadePoint {
   Vec3 base_color{1};              // linear
   Vec3 diffuse{0};                 // (1 - metallic) * (1 - transmission) * base colour
@@ -36,7 +36,7 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
 void turn_inside(ShadePoint& point);
 
 // The unit normal on the front side that the material's normal map makes of `normal` (unit, front side); the same where
-// it has none. docs/conventions.md, "Normal maps".
+// it has none. docs/notes/conventions.md, "Normal maps".
 Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, const Vec3& normal,
                    const Footprint& footprint = {});
 

@@ -1,6 +1,7 @@
 // The reflection of a shading point: Lambert, a GGX lobe with exact Fresnel, a clear coat, and transmission: thin and
-// straight, or refraction at the surface of solid glass (docs/materials.md). Local space: z along the shading normal on
-// the side that wo is on, x along the wide direction of an anisotropic lobe; wo and wi point away from the surface.
+// straight, or refraction at the surface of solid glass (docs/notes/materials.md). Local space: z along the shading
+// normal on the side that wo is on, x along the wide direction of an anisotropic lobe; wo and wi point away from the
+// surface.
 #pragma once
 
 #include <optional>

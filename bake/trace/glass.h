@@ -52,7 +52,7 @@ class Medium {
   Vec3 absorption_{0};  // 1/m
 };
 
-// Light that crosses solids unbent, as that of points, spots and suns is taken to (docs/materials.md): surface by
+// Light that crosses solids unbent, as that of points, spots and suns is taken to (docs/notes/materials.md): surface by
 // surface along one ray. A slab with parallel sides passes exactly what it would bent, and what its sides send to and
 // fro between them.
 class StraightGlass {

@@ -33,7 +33,7 @@ bool all_emission_is_plain(const Scene& scene);
 
 // Where light is received: a point, its shading normal and the normal of the real surface there (both unit). Incidence
 // is weighted by both cosines as the path tracer does it: max(0, n·ω) + max(0, n·ω') for ω above the real surface, ω'
-// its mirror image below (docs/conventions.md); with n = g that is plain irradiance.
+// its mirror image below (docs/notes/conventions.md); with n = g that is plain irradiance.
 struct Receiver {
   Vec3 position{0};
   Vec3 normal{0, 0, 1};

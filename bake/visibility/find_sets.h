@@ -1,4 +1,4 @@
-// Potentially visible sets by sampled sight lines: docs/visibility.md tells how and what may be missed.
+// Potentially visible sets by sampled sight lines: docs/notes/visibility.md tells how and what may be missed.
 #pragma once
 
 #include "bake/jobs/context.h"

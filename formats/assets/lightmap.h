@@ -91,7 +91,8 @@ inline Vec3 irradiance_at(const LightmapPage& page, const Vec2& uv) {
 
 // E(n) / E(g): how the irradiance at a texel changes when its normal g is tilted to n (both unit). d is read as an even
 // hemisphere of light together with one distant lamp: the share of the lamp and its direction follow from d, and the
-// irradiance of both is closed (docs/conventions.md, "Directional lightmaps"). Finite and not negative; 1 for n = g.
+// irradiance of both is closed (docs/notes/conventions.md, "Directional lightmaps"). Finite and not negative; 1 for n =
+// g.
 inline float directional_ratio(const Vec3& d, const Vec3& n, const Vec3& g) {
   const Vec3 off = d - 0.5f * g;  // d = (1 - lamp) g / 2 + lamp ω, |ω| = 1
   const float h = 0.5f - glm::dot(d, g);

@@ -1,5 +1,5 @@
-// Normal maps: how a texel tilts a surface's normal (docs/conventions.md, "Normal maps"). shaders/lib/normal_map.glsl
-// is the same.
+// Normal maps: how a texel tilts a surface's normal (docs/notes/conventions.md, "Normal maps").
+// shaders/lib/normal_map.glsl is the same.
 #pragma once
 
 #include "formats/core/vec.h"

@@ -9,7 +9,7 @@
 
 namespace oriel {
 
-// What went wrong, as the exit code that a tool ends with (docs/conventions.md).
+// What went wrong, as the exit code that a tool ends with (docs/notes/conventions.md).
 enum class ErrorCode {
   kUsage = 1,      // wrong arguments
   kIo = 2,         // a file could not be read or written

@@ -1,5 +1,5 @@
-// The commands of oriel-inspect. Each returns an exit code (docs/conventions.md), puts its result on stdout or into
-// files and its complaints on stderr.
+// The commands of oriel-inspect. Each returns an exit code (docs/notes/conventions.md), puts its result on stdout or
+// into files and its complaints on stderr.
 #pragma once
 
 #include <filesystem>

@@ -35,7 +35,7 @@ Examples:
                                                a walkthrough in a browser: a folder for any web server;
                                                with --serve it can be looked at, at once
 
-docs/oriel-inspect.md explains every line of the output, docs/format.md the file.)";
+docs/oriel-inspect.md explains every line of the output, docs/notes/format.md the file.)";
 
 struct Arguments {
   std::filesystem::path pack, after, scene, output;

@@ -1,4 +1,4 @@
-// The bytes of an .oriel pack, format version 1. docs/format.md is the specification; both change together.
+// The bytes of an .oriel pack, format version 1. docs/notes/format.md is the specification; both change together.
 //
 //   FileHeader | SectionRecord x section_count | padding | section | padding | section …
 //
@@ -150,7 +150,7 @@ constexpr const SectionKind* find_section_kind(std::uint32_t kind) {
   return nullptr;
 }
 
-// Limits, so that a hostile file cannot make a reader allocate without end (docs/format.md gives the reasons).
+// Limits, so that a hostile file cannot make a reader allocate without end (docs/notes/format.md gives the reasons).
 inline constexpr std::uint32_t kMaxSections = 1u << 20;
 inline constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;   // of all sections together
 inline constexpr std::uint64_t kMaxExpansion = std::uint64_t{1} << 16;  // raw bytes for a stored byte

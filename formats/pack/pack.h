@@ -1,4 +1,4 @@
-// Everything an .oriel pack holds, in memory. docs/format.md is the specification of the file.
+// Everything an .oriel pack holds, in memory. docs/notes/format.md is the specification of the file.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // Arrays as byte planes: first byte 0 of every element, then byte 1 of every element, …, each byte stored as its
 // difference from the one before in the same plane (modulo 256). Neighbouring elements share their high bytes, so that
-// zstd finds runs where it saw none: measured in docs/format.md.
+// zstd finds runs where it saw none: measured in docs/notes/format.md.
 #pragma once
 
 #include <algorithm>

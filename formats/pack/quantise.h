@@ -1,5 +1,5 @@
 // How numbers lose bits in a pack. Each encoding gives back the same code for its own decoded value, so that reading
-// and writing a pack again changes no byte. docs/format.md states the errors.
+// and writing a pack again changes no byte. docs/notes/format.md states the errors.
 #pragma once
 
 #include <cstdint>

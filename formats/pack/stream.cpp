@@ -11,7 +11,7 @@ namespace oriel {
 namespace {
 
 // Level 6 saves 1 to 2 % on maps for two to three times the time, level 15 no more than that (measured:
-// docs/format.md).
+// docs/notes/format.md).
 constexpr int kZstdLevel = 3;
 
 using Compressor = std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)>;

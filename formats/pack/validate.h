@@ -10,7 +10,7 @@ namespace oriel {
 
 enum class Severity { kWarning, kError };
 
-// Numbers are permanent: docs/format.md lists them, a retired one is not used again.
+// Numbers are permanent: docs/notes/format.md lists them, a retired one is not used again.
 struct Issue {
   int number = 0;
   Severity severity = Severity::kError;

@@ -9,9 +9,9 @@
 
 namespace oriel {
 
-// The bytes of a pack: the same pack gives the same bytes, whatever the threads. Floats are rounded as docs/format.md
-// says; encoding a decoded pack again gives the same bytes. A pack with an issue of severity kError (validate.h) is
-// refused with kInvalid and the first issue's text.
+// The bytes of a pack: the same pack gives the same bytes, whatever the threads. Floats are rounded as
+// docs/notes/format.md says; encoding a decoded pack again gives the same bytes. A pack with an issue of severity
+// kError (validate.h) is refused with kInvalid and the first issue's text.
 Result<Bytes> encode_pack(const Pack& pack);
 
 // The same bytes as a file: path holds either the old file or the whole new one. One encoded section is in memory at a

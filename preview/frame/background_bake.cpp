@@ -60,7 +60,7 @@ bool BackgroundBake::ended_well() {
   if (ended == 0) return false;
   child_ = -1;
   ::close(std::exchange(pipe_, -1));
-  constexpr int kPartial = 6;  // a pack that ended early is one to show (docs/conventions.md)
+  constexpr int kPartial = 6;  // a pack that ended early is one to show (docs/notes/conventions.md)
   if (WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == kPartial)) return true;
   failure_ = !last_error_.empty() ? last_error_
              : WIFEXITED(status)  ? fmt::format("the bake ended with exit code {}", WEXITSTATUS(status))

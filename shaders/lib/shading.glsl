@@ -1,4 +1,4 @@
-// The shading equation of docs/conventions.md: L = kd (1 - max R) / pi E + S + emission.
+// The shading equation of docs/notes/conventions.md: L = kd (1 - max R) / pi E + S + emission.
 const float kPi = 3.14159265358979323846;
 
 float max_channel(vec3 v) { return max(v.r, max(v.g, v.b)); }

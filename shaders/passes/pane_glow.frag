@@ -1,5 +1,5 @@
 // What a frosted pane's facets send to the eye of points, spots and suns on its other side: times the density with which they send the
-// eye's ray there, GGX facets that mirror it at the pane (docs/materials.md, "Frosted panes"). Bent panes by their normal.
+// eye's ray there, GGX facets that mirror it at the pane (docs/notes/materials.md, "Frosted panes"). Bent panes by their normal.
 #include "lib/reflectance.glsl"
 
 uniform vec4 u_eye;

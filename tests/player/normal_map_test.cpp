@@ -1,4 +1,4 @@
-// Normal maps and directional lightmaps in the player's frames, against the model of docs/conventions.md.
+// Normal maps and directional lightmaps in the player's frames, against the model of docs/notes/conventions.md.
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {

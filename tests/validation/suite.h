@@ -1,4 +1,5 @@
-// The suite's files, and the cases made of them. ORIEL_VALIDATION names the folder; docs/validation.md tells of it.
+// The suite's files, and the cases made of them. ORIEL_VALIDATION names the folder; docs/notes/validation.md tells of
+// it.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Prints what docs/validation.md shows: every case of the suite with its exact and published value, ours and the
+// Prints what docs/notes/validation.md shows: every case of the suite with its exact and published value, ours and the
 // stated error, as Markdown. Usage: ORIEL_VALIDATION=DIR validation_table [--quick] [--lux-only] [FAMILY…] [CASE…]
 #include <chrono>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Materials, textures and what a point shades to: docs/conventions.md, "Materials".
+// Materials, textures and what a point shades to: docs/notes/conventions.md, "Materials".
 #include <gtest/gtest.h>
 
 #include "bake/import/images.h"

@@ -1,4 +1,4 @@
-// Normal maps: what is read of them, and how they tilt normals (docs/conventions.md, "Normal maps").
+// Normal maps: what is read of them, and how they tilt normals (docs/notes/conventions.md, "Normal maps").
 #include <gtest/gtest.h>
 
 #include "bake/scene/shade.h"

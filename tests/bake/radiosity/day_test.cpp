@@ -74,8 +74,8 @@ Scene room_by_day() {
 }
 
 // Of the difference between an hour's group and a bake of that hour: rms, relative, dark texels to a tenth of the mean.
-// Where an hour has a fifth of all light it is as good as alone (docs/lights.md): both have the error asked for. A
-// hundredth of the texels is left out: what those at the edge of a sun's patch have follows from where a few points
+// Where an hour has a fifth of all light it is as good as alone (docs/notes/lights.md): both have the error asked for.
+// A hundredth of the texels is left out: what those at the edge of a sun's patch have follows from where a few points
 // lie.
 TEST(Day, HoursAreWhatTheirSunAndSkyGiveAlone) {
   const Baked all = bake(in_daylight(room_by_day(), "8-16/4"), 0.2f, options());

@@ -1,4 +1,4 @@
-"""An edge-avoiding à-trous filter over a lightmap that Cycles baked: the denoiser that stands beside it in docs/benchmarks.md.
+"""An edge-avoiding à-trous filter over a lightmap that Cycles baked: the denoiser that stands beside it in docs/notes/benchmarks.md.
 
 Irradiance without albedo, filtered over texels of the page (Dammertz et al. 2010), guided by what lies under the texels'
 centres, position and normal, and by how much their light differs for its noise (Schied et al. 2017, SVGF). The noise is

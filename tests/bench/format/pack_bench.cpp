@@ -1,4 +1,4 @@
-// Times of packs as files. docs/format.md holds what it printed.
+// Times of packs as files. docs/notes/format.md holds what it printed.
 //   pack_bench grow PACK OUT BYTES     repeats PACK's lightmap pages and reflectors until OUT has BYTES or more
 //   pack_bench load PACK               seconds to load PACK as the player does, bytes read, largest memory
 //   pack_bench levels PACK             zstd levels by kind of section: ratio and MB/s

@@ -1,4 +1,4 @@
-// Packs in memory and in files: what goes in comes out, within the errors that docs/format.md states.
+// Packs in memory and in files: what goes in comes out, within the errors that docs/notes/format.md states.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -258,7 +258,7 @@ TEST(Pack, CurvedReflectorsComeBack) {
 }
 
 // What halves do to the light shown under lamps anywhere above, with any share of even light, on normals
-// tilted up to 60 degrees: the figures of docs/format.md.
+// tilted up to 60 degrees: the figures of docs/notes/format.md.
 TEST(Pack, DirectionsKeepWhatIsShown) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> unit(0, 1);

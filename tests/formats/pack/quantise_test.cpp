@@ -110,7 +110,7 @@ TEST(Planes, ComeBackAndRefuseWhatIsNotThere) {
   }
 }
 
-// The bytes that docs/format.md gives as its example.
+// The bytes that docs/notes/format.md gives as its example.
 TEST(Planes, DocumentedExample) {
   const std::vector<std::uint16_t> values = {0x0102, 0x0105, 0x0204};
   ByteWriter out;
