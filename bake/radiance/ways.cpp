@@ -7,7 +7,7 @@
 namespace oriel {
 
 WayCosts way_costs(DrawnOn target) {
-  // llvmpipe, one thread's time; and an NVIDIA H200 (docs/notes/benchmarks.md, "On a graphics card").
+  // llvmpipe, one thread's time; and an NVIDIA H200 (docs/notes/reflections.md, "Geometry or maps").
   if (target == DrawnOn::kGpu) return {0.008, 0.0013, 0.00046, 0.14, 0.0057};
   return {1, 0.08, 0.13, 1, 0.53};
 }

@@ -15,8 +15,7 @@ enum class WaysWanted { kAuto, kGeometry, kMaps };
 // What frames are drawn on.
 enum class DrawnOn { kCpu, kGpu };
 
-// The image of one reflector, milliseconds: measured on the target (docs/notes/benchmarks.md, "Mirrored geometry or
-// maps").
+// The image of one reflector, milliseconds: measured on the target (docs/notes/reflections.md, "Geometry or maps").
 struct WayCosts {
   double geometry_ms = 0, triangle_us = 0, geometry_pixel_us = 0;  // by image, triangle drawn and pixel
   double maps_ms = 0, maps_pixel_us = 0;

@@ -1,5 +1,5 @@
 // A pack in pieces for a browser, in the order in which they are wanted. Each is a file of the pack's own format with
-// some of its sections (docs/web.md), so that one specification and one reader serve both.
+// some of its sections (docs/notes/web.md), so that one specification and one reader serve both.
 #pragma once
 
 #include <functional>

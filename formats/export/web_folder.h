@@ -1,4 +1,4 @@
-// A walkthrough as static files: a page, the viewer, and the pack in pieces (docs/web.md).
+// A walkthrough as static files: a page, the viewer, and the pack in pieces (docs/notes/web.md).
 #pragma once
 
 #include <filesystem>

@@ -41,7 +41,8 @@ int bench(int argc, char** argv) {
   std::string texel = "auto";
   double known_to = 0.02, rays = 2e8;
   if (const auto code = parse_options(
-          argc, argv, "Prints the frame error of a pack's lightmap (docs/notes/radiosity.md) with its 95 % interval.",
+          argc, argv,
+          "Prints the frame error of a pack's lightmap (docs/notes/error-estimate.md) with its 95 % interval.",
           {{"SCENE", "Arguments", "That was baked", path(options.scene, "SCENE"), Use::kRequired},
            {"PACK", "Arguments", "Baked of that scene", path(options.output, "PACK"), Use::kRequired},
            {"--texel", "Options", "That it was baked with", text(texel, "auto|LENGTH")},

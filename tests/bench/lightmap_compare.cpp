@@ -1,5 +1,5 @@
 // Errors of baked lightmaps against a reference in two independent halves, on the scene's own lightmap coordinates
-// (docs/notes/benchmarks.md defines them). Prints one JSON object a lightmap and set of texels.
+// (docs/notes/metrics.md defines them). Prints one JSON object a lightmap and set of texels.
 #include <fmt/format.h>
 
 #include <cstdio>

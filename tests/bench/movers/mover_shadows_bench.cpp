@@ -1,5 +1,5 @@
 // Shadows of moving movers by shadow maps and by soft-shadow textures: what they cost a frame, and how far they are
-// from rays (docs/movers.md).
+// from rays (docs/notes/movers.md).
 #include <sys/resource.h>
 
 #include <chrono>

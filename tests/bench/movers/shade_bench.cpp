@@ -1,5 +1,5 @@
 // The shade of movers in light from everywhere, after Barczak 2006: frame time by lights and by method, passes, moving
-// movers, error by lights and maps (docs/movers.md).
+// movers, error by lights and maps (docs/notes/movers.md).
 #include <cstdio>
 
 #include "formats/cli/command.h"
