@@ -29,7 +29,6 @@ class Planner {
     configurations_.push_back(default_);
     light();
     reflections();
-    passes();
     movers();
     moved_lamp();
     no_bake();
@@ -75,13 +74,6 @@ class Planner {
     }
   }
 
-  // Lamps in passes over indirect light.
-  void passes() {
-    const Settings published{{"--method", "diefenbach1997"}};
-    add("as published", "passes", published, published, "all of Diefenbach & Badler 1997");
-    configurations_.back().in_passes = true;
-  }
-
   void reflections() {
     if (!facts_.planar && !facts_.curved) {
       skip("views, map resolution, reflections, maps, blur, kernel, fresnel",
@@ -104,7 +96,7 @@ class Planner {
     const Settings maps_baked{{"--reflections", "maps"}};
     add("reflections", "march", maps_baked, {{"--reflections", "march"}});
     add("reflections", "points", maps_baked, {{"--reflections", "points"}}, "point splatting (Bastos 1999)");
-    add("reflections", "geometry", {{"--reflections", "geometry"}}, {}, "mirrored geometry (Diefenbach 1997)");
+    add("reflections", "geometry", {{"--reflections", "geometry"}}, {});
     for (const std::string& views : either({"2"}, {"1", "2", "4"}))
       add("views", "planned:" + views, {{"--views", "planned:" + views}}, {});
     for (const std::string& views : either({"16"}, {"4", "16", "64"}))

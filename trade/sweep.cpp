@@ -158,7 +158,7 @@ class Sweep {
 
   Status measure_pack(Row& row) {
     const Configuration& c = row.configuration;
-    const bool texels = !c.moved && !c.in_passes;
+    const bool texels = !c.moved;
     ORIEL_TRY(const std::string reference, texels ? texel_reference(c.bake.at("--texel")) : "");
     const std::string key = bake_key(c.bake, o_.seed, reference);
     if (!units_.counting() && texels && !fs::exists(pack(reference))) return {};  // no time for it

@@ -197,22 +197,6 @@ void write_groups(const RadiosityTask& task, const LightEstimator& estimator, Ra
     for (std::size_t p = 0; p < pages.size(); ++p) pages[p].state = light.pages[p].state;
 }
 
-// Radiosity::indirect: what surfaces reflect to texels, but for what lamps send by way of specular reflections.
-Result<std::vector<LightmapPage>> indirect_pages(const RadiosityTask& task, const LightEstimator& estimator) {
-  Radiosity light = empty_radiosity(task.map, false);
-  if (const auto known = estimator.texel_light()) {
-    const std::size_t texels = known->texels.count();
-    const Estimate none{std::vector<Vec3>(texels), std::vector<Vec3>(texels)};
-    Estimate reflected = known->reflected;
-    for (std::size_t i = 0; i < known->beside.size(); ++i) reflected.value[i] -= known->beside[i];
-    write_texels({known->texels, none, reflected, {}, {}}, light);
-  } else {
-    estimator.write(light);
-  }
-  ORIEL_TRY_VOID(fill_and_stitch(task, light));
-  return std::move(light.pages);
-}
-
 // What groups share in what was stitched, clamped and added between texels.
 void share_out_light(Radiosity& light) {
   for (std::size_t p = 0; p < light.pages.size() && !light.groups.empty(); ++p)
@@ -341,9 +325,6 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
     ORIEL_TRY(const std::optional<Goal> next, next_goal(task, goal, held_out, light));
     if (!next) break;
     goal = *next;
-  }
-  if (options.indirect) {
-    ORIEL_TRY(light.indirect, indirect_pages(task, *estimator));
   }
   light.report.rays = rays + quick_rays + light.report.detail.rays;
   if (options.hidden == Hidden::kBlack) darken_all_hidden(task, light);

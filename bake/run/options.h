@@ -27,9 +27,8 @@ enum class Directional { kAuto, kOn, kOff };
 // Which viewpoints radiance maps have: those that show most to the eye region, or uniform hemispheres.
 enum class ViewScheme { kPlanned, kHemisphere };
 
-// How light is baked: as Oriel does, or for comparison as Bastos et al. 1999 published reflections, or Diefenbach and
-// Badler 1997 frames of many passes.
-enum class Method { kOriel, kBastos1999, kDiefenbach1997 };
+// How light is baked: as Oriel does, or for comparison as Bastos et al. 1999 published reflections.
+enum class Method { kOriel, kBastos1999 };
 
 // Whether what is seen from where is found: where it is likely to pay, always, never.
 enum class VisibleSetsWanted { kAuto, kOn, kOff };

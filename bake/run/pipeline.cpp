@@ -11,7 +11,6 @@
 #include "bake/run/group_light.h"
 #include "bake/run/idle_options.h"
 #include "bake/run/inputs.h"
-#include "bake/run/lamps.h"
 #include "bake/run/movers.h"
 #include "bake/run/prepare.h"
 #include "bake/run/report.h"
@@ -85,7 +84,6 @@ class Bake {
     ORIEL_TRY_VOID(light_vertices());
     ORIEL_TRY_VOID(capture_reflections());
     ORIEL_TRY_VOID(make_light_field());
-    ORIEL_TRY_VOID(leave_lamps_to_passes());
     ORIEL_TRY_VOID(assemble());
     ORIEL_TRY_VOID(check());
     describe();
@@ -108,7 +106,6 @@ class Bake {
     transport_.emplace(accel(), *lights_, path_options(options_));
     warn_about_light(scene(), *lights_, context_);
     foretell_light();
-    if (options_.method == Method::kDiefenbach1997) ORIEL_TRY_VOID(check_lamps(task()));
     return {};
   }
 
@@ -300,13 +297,6 @@ class Bake {
     ORIEL_TRY_VOID(timed_("probes", [&](std::uint64_t& rays) { return bake_light_field(task(), enough, rays); }));
     if (late) result_.omissions.emplace_back("light field: its last refinement is left out, the bake was to end");
     return {};
-  }
-
-  // What was captured shows all light; the lightmap keeps what lamps do not give at once.
-  Status leave_lamps_to_passes() {
-    if (options_.method != Method::kDiefenbach1997) return {};
-    pack().lightmaps = std::move(radiosity_.indirect);
-    return list_lamps(task(), result_.omissions);
   }
 
   Status assemble() {

@@ -14,22 +14,6 @@ double median(std::vector<double> values) {
   return values.empty() ? 0 : values[values.size() / 2];
 }
 
-Json as_json(const MultiPassStats& s) {
-  return {{"images", s.images},
-          {"paths", s.paths},
-          {"paths_left_out", s.left_out},
-          {"light_passes", s.light_passes},
-          {"shadow_passes", s.shadow_passes},
-          {"aperture_passes", s.aperture_passes},
-          {"volumes_reused", s.reused},
-          {"volumes_new", s.built_new},
-          {"volumes_for_light", s.built_for_light},
-          {"volumes_for_object", s.built_for_object},
-          {"volume_bytes", s.volume_bytes},
-          {"places_asked", s.places_asked},
-          {"build_ms", s.build_ms}};
-}
-
 Json as_json(const FrameRecord& record) {
   const FrameStats& s = record.stats;
   Json passes;
@@ -70,7 +54,6 @@ Json as_json(const FrameRecord& record) {
             {"merge_ms", s.shade.merge_ms},
             {"maps_ms", s.shade.maps_ms},
             {"light_ms", s.shade.light_ms}}},
-          {"lamp_passes", as_json(s.passes)},
           {"in_zone", record.in_zone}};
 }
 
@@ -90,10 +73,6 @@ std::string describe(const FrameStats& stats, bool in_zone) {
     text += fmt::format(", shade of movers in {} lights, made in {:.1f} s", shade.lights, shade.prepare_s);
     if (shade.passes > 0) text += fmt::format(", in {} passes over {} cells", shade.passes, shade.cells);
   }
-  if (const MultiPassStats& lamps = stats.passes; lamps.images > 0)
-    text += fmt::format(", {} images, {} light, {} shadow and {} aperture passes, {} volumes reused, {} built",
-                        lamps.images, lamps.light_passes, lamps.shadow_passes, lamps.aperture_passes, lamps.reused,
-                        lamps.built_new + lamps.built_for_light + lamps.built_for_object);
   for (std::size_t i = 0; i < kPassNames.size(); ++i)
     if (stats.ms[i] > 0) text += fmt::format(", {} {:.1f} ms", kPassNames[i], stats.ms[i]);
   return text + (in_zone ? "" : ", outside the zone that reflections were planned for");

@@ -86,7 +86,6 @@ Status Other::draw(const Seen& seen) {
   }
   const Pack& pack = scene_->pack();
   FrameOptions options = seen.options;
-  options.multi_pass.on = method_of(pack) == "diefenbach1997";
   std::vector<MoverMove> moves(seen.moves.begin(), seen.moves.end());
   std::erase_if(moves, [&](const MoverMove& move) {
     return std::ranges::find(pack.movers, move.node, &Mover::name) == pack.movers.end() &&

@@ -24,8 +24,7 @@ std::vector<DrawBatch> choose_shown(const FrameContext& context) {
     stats.groups = static_cast<std::uint32_t>(seen->size());
     stats.groups_seen = static_cast<std::uint32_t>(std::count(seen->begin(), seen->end(), 1));
   }
-  return options.coarse && !options.multi_pass.on ? scene.show_fewer(view, seen)
-                                                  : scene.show(make_frustum(view.clip_from_pack), seen);
+  return options.coarse ? scene.show_fewer(view, seen) : scene.show(make_frustum(view.clip_from_pack), seen);
 }
 
 // Movers as mirrors show them: bright lights are among their harmonics, without shadows.
@@ -78,7 +77,6 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   std::unique_ptr<Renderer> renderer(new Renderer);
   renderer->device_ = device;
   renderer->glass_pass_ = GlassPass(device.dialect);
-  renderer->multi_pass_ = MultiPass(device.dialect);
   renderer->clock_ = PassClock(device.pass_timers);
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
   ORIEL_TRY(renderer->mover_pass_, MoverPass::create(device.dialect));
@@ -118,8 +116,7 @@ Result<std::optional<BrightChange>> Renderer::draw_change(const FrameContext& co
 
 // Before movers are drawn: the stencil has reflectors' marks.
 Status Renderer::add_light(const FrameContext& context, const LitBatches& lit, FrameExtension& extension) {
-  const auto draw = [&] { return extension.add_light(context, LitImage::of(*frame_), lit); };
-  ORIEL_TRY_VOID(clock_.time(Pass::kLamps, draw));
+  ORIEL_TRY_VOID(extension.add_light(context, LitImage::of(*frame_), lit));
   frame_->drawn().bind();
   glViewport(0, 0, context.view.width, context.view.height);
   return {};
@@ -134,8 +131,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
   ORIEL_TRY_VOID(scene_pass_.prepare(scene, options));
-  // Many passes add up, and light of lamps has no bound.
-  const bool halves = options.halves && !options.multi_pass.on && scene.fits_halves();
+  const bool halves = options.halves && scene.fits_halves();
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples, halves));
   reflections_.use_halves(halves);
   FrameStats stats;
@@ -151,7 +147,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   if (is_survey(options.show)) {
     ORIEL_TRY_VOID(clock_.time(Pass::kScene, [&] { return survey_pass_.draw(context, shown); }));
   } else {
-    ORIEL_TRY_VOID(draw_light(context, shown, options.multi_pass.on ? &multi_pass_ : extension));
+    ORIEL_TRY_VOID(draw_light(context, shown, extension));
     count_images(scene, stats);
   }
   frame_->resolve_light();
@@ -165,7 +161,7 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
   const std::vector<PlacedMover> movers = clock_.time(Pass::kMovers, [&] { return place_movers(scene, options); });
   if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(context, movers); });
   const std::vector<PlacedMover> mirrored = in_mirrors(scene, options);
-  if (extension) ORIEL_TRY_VOID(clock_.time(Pass::kLamps, [&] { return extension->begin(context, movers); }));
+  if (extension) ORIEL_TRY_VOID(extension->begin(context, movers));
   const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored, glass_pass_, extension};
   const ReflectionTarget target{&*frame_};
   ReflectionMarks marks;

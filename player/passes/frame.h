@@ -8,8 +8,8 @@
 #include "formats/image/image.h"
 #include "player/movers/bright_pass.h"
 #include "player/passes/display_pass.h"
+#include "player/passes/frame_extension.h"
 #include "player/passes/glass_pass.h"
-#include "player/passes/multi_pass.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflection_renderer.h"
 #include "player/passes/scene_pass.h"
@@ -65,7 +65,6 @@ class Renderer {
   ScenePass scene_pass_;
   MoverPass mover_pass_;
   BrightPass bright_pass_;
-  MultiPass multi_pass_;
   ReflectionRenderer reflections_;
   GlassPass glass_pass_;
   SurveyPass survey_pass_;

@@ -17,7 +17,10 @@ struct LitImage {
   const gpu::Framebuffer& from;  // whose depth and stencil tell what is seen
   const gpu::Texture2d* light = nullptr;
   const gpu::MultisampleTexture* samples = nullptr;  // in place of it
-  static LitImage of(const FrameTarget& frame);
+  static LitImage of(const FrameTarget& frame) {
+    if (frame.light_samples) return {frame.sampled, nullptr, &frame.light_samples};
+    return {frame.framebuffer, &frame.light, nullptr};
+  }
   static LitImage of(const ImageTarget& image) { return {image.sharp_framebuffer, &image.sharp, nullptr}; }
 };
 

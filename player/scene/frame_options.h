@@ -71,18 +71,6 @@ struct LiveSettings {
 // radiosity is, where all of them are of one chart.
 enum class LightmapFilter { kBilinear, kBicubic };
 
-// Light of lamps in passes of their own (Diefenbach & Badler 1997), over a lightmap that is without it.
-struct MultiPassSettings {
-  bool on = false;
-  int points = 4;            // of a lamp that has a size, each a source: 1 to 16
-  int mirrors = 1;           // on the way of light from a lamp to what it lights, at most: 0 to kMostLightMirrors
-  int shadow_mirrors = 3;    // ways by more of them have no shadows
-  bool bent_shadows = true;  // of what stands before a mirror on the way; else of what stands behind the last one alone
-
-  bool operator==(const MultiPassSettings&) const = default;
-};
-inline constexpr int kMostLightMirrors = 3;
-
 struct FrameOptions {
   Show show = Show::kAll;
   LightmapFilter lightmap_filter = LightmapFilter::kBilinear;
@@ -112,7 +100,6 @@ struct FrameOptions {
   MoverLights mover_lights = MoverLights::kShadowed;
   MoverShadows mover_shadows = MoverShadows::kMaps;
   ShadeSettings shade{};
-  MultiPassSettings multi_pass{};
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
   // Which it is of frames that are added up: lights' points and rays of frosted glass are others in each, even over
   // all.
@@ -132,12 +119,10 @@ enum class Pass {
   kCurved,
   kScene,
   kTransparent,
-  kMovers,
-  kLamps
+  kMovers
 };
-inline constexpr std::array<const char*, 12> kPassNames{"depth",    "mask",        "reflect",  "fill",
-                                                        "convolve", "compose",     "emitters", "curved",
-                                                        "scene",    "transparent", "movers",   "lamps"};
+inline constexpr std::array<const char*, 11> kPassNames{
+    "depth", "mask", "reflect", "fill", "convolve", "compose", "emitters", "curved", "scene", "transparent", "movers"};
 using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 
 // Of the shade of movers in the light from everywhere.
@@ -151,22 +136,6 @@ struct ShadeStats {
   double prepare_s = 0;                    // for the scene, once
   // Milliseconds, where a frame is timed: what movers may block, drawing cells together, maps, light.
   double cells_ms = 0, merge_ms = 0, maps_ms = 0, light_ms = 0;
-};
-
-// Of light in passes, as Diefenbach & Badler 1997 count them.
-struct MultiPassStats {
-  std::uint32_t paths = 0;            // from a source by mirrors to what it lights
-  std::uint32_t left_out = 0;         // more than a frame draws
-  std::uint32_t images = 0;           // the frame's own view and those of mirrors: passes without lamps
-  std::uint32_t light_passes = 0;     // the scene in the light of one path
-  std::uint32_t shadow_passes = 0;    // shadow volumes of all objects, of one stretch of a path
-  std::uint32_t aperture_passes = 0;  // light volumes, of one mirror on a path
-  // Volumes of an object and a source, drawn from the cache or built for the frame: as the source was new, or it or a
-  // mirror moved, or the object did.
-  std::uint32_t reused = 0, built_new = 0, built_for_light = 0, built_for_object = 0;
-  std::uint64_t volume_bytes = 0;  // kept
-  std::uint64_t places_asked = 0;  // how many volumes hold the eye: objects whose triangles were asked
-  double build_ms = 0;             // of the processor
 };
 
 struct FrameStats {
@@ -190,7 +159,6 @@ struct FrameStats {
   // Of opaque ones without a kernel, by march: of the pixels those in which a map pixel covers no more than two.
   std::uint64_t mirror_pixels = 0, sharp = 0;
   ShadeStats shade;
-  MultiPassStats passes;
   PassTimes ms{};                // by pass, where asked for
   double shadow_texture_ms = 0;  // of the processor's soft-shadow textures, a part of the movers' pass
 };

@@ -23,7 +23,7 @@ namespace oriel {
 inline constexpr int kSamples = 4;
 
 // A whole way of showing reflections: that of the options, or all of them as Bastos et al. 1999 published it.
-enum class ShownMethod { kOriel, kBastos1999, kDiefenbach1997 };
+enum class ShownMethod { kOriel, kBastos1999 };
 
 struct PlayArguments {
   std::vector<std::string> given;  // long names of options that the command line has

@@ -1,7 +1,6 @@
 #include "player/session/method.h"
 
 #include "formats/core/json.h"
-#include "player/movers/light_samples.h"
 #include "player/session/option_names.h"
 
 namespace oriel {
@@ -10,23 +9,9 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
   return {
       {"--method", group,
        "As published, to compare with, for packs of oriel-bake --method likewise. bastos1999: --reflections points "
-       "--blur constant --fill off --fresnel sphere. diefenbach1997: lamps by passes with shadow volumes, in mirrors "
-       "and by way of mirrors too, over a lightmap without their light",
-       choice(out.method, {{"oriel", ShownMethod::kOriel},
-                           {"bastos1999", ShownMethod::kBastos1999},
-                           {"diefenbach1997", ShownMethod::kDiefenbach1997}}),
-       Use::kRare, "method"},
-      {"--shadow-points", group, "Of --method diefenbach1997: points of a lamp that has a size, each with its passes",
-       number(out.frame.multi_pass.points, 1, kMaxLightPoints), Use::kRare, "shadow_points"},
-      {"--light-mirrors", group, "Likewise: mirrors on the way of light from a lamp to what it lights, at most",
-       number(out.frame.multi_pass.mirrors, 0, kMostLightMirrors), Use::kRare, "light_mirrors"},
-      {"--shadow-mirrors", group,
-       "Likewise: light by way of more mirrors than this throws no shadows; -1: no light does",
-       number(out.frame.multi_pass.shadow_mirrors, -1, kMostLightMirrors), Use::kRare, "shadow_mirrors"},
-      {"--bent-shadows", group,
-       "Likewise: whether what light meets before a mirror throws shadows by way of it; off: what stands behind the "
-       "last mirror alone does",
-       choice(out.frame.multi_pass.bent_shadows, kSwitch), Use::kRare, "bent_shadows"},
+       "--blur constant --fill off --fresnel sphere",
+       choice(out.method, {{"oriel", ShownMethod::kOriel}, {"bastos1999", ShownMethod::kBastos1999}}), Use::kRare,
+       "method"},
       {"--reflections", group,
        "What reflectors show: as the bake chose, rays marched through their radiance maps, the maps' pixels as points "
        "as Bastos et al. published it, the mirrored scene drawn again, or nothing. Reflectors without maps always show "
@@ -80,14 +65,6 @@ std::string settle_method(const Given& given, PlayArguments& out) {
     if (!given.has("--fresnel")) frame.reflectance = Reflectance::kSphereMap;
     frame.kernel = KernelPlace::kCentred;
   }
-  if (out.method == ShownMethod::kDiefenbach1997) {
-    if (given.has("--reflections") && frame.reflections != Reflections::kGeometry &&
-        frame.reflections != Reflections::kOff)
-      return "found --reflections of another method with --method diefenbach1997";
-    if (!given.has("--reflections")) frame.reflections = Reflections::kGeometry;
-    frame.multi_pass.on = true;
-    frame.mover_lights = MoverLights::kHarmonics;  // the lightmap has no light for movers' shadows to take
-  }
   if (!frame.fill && frame.blur == Blur::kDistance)
     return "--fill off needs --blur constant or off: a blur by distance reads around each pixel";
   return {};
@@ -101,12 +78,6 @@ std::string method_of(const Pack& pack) {
 
 std::string other_method(const Pack& pack, const PlayArguments& arguments) {
   const std::string baked = method_of(pack);
-  if (arguments.method == ShownMethod::kDiefenbach1997 && baked != "diefenbach1997")
-    return "the pack is not of oriel-bake --method diefenbach1997: its lightmap has the light of lamps already, and "
-           "what passes add of lamps that it names is there twice";
-  if (arguments.method != ShownMethod::kDiefenbach1997 && baked == "diefenbach1997")
-    return "the pack is of oriel-bake --method diefenbach1997: its lightmap is without the light of lamps, which "
-           "--method diefenbach1997 adds";
   if (arguments.method != ShownMethod::kBastos1999 || pack.reflectors.empty() || baked == "bastos1999") return {};
   return "the pack is not of oriel-bake --method bastos1999: its maps, kernels and sphere maps are not as published, "
          "and lamps are shown beside its maps";

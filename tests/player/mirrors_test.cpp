@@ -90,7 +90,7 @@ TEST_F(Mirrors, GoOnWhileMostOfTheLightIsLeft) {
 
 // n mirrors that all see each other take n^d + 1 images to depth d with the frame's own (Diefenbach & Badler 1997,
 // equation 8), for the depths of their table 3: one of each mirror, and in that one of each other mirror.
-TEST_F(Mirrors, TakeAsManyImagesAsDiefenbachCounts) {
+TEST_F(Mirrors, TakeTheirNumberToTheDepthOfImages) {
   Pack pack = empty_pack();
   const Camera camera = look_at({0.05f, 0.02f, 0.6f}, {0, 0, -2}, 1.6f);
   const std::array<std::array<Vec3, 3>, 3> walls{{{Vec3(-1, -1, -2), Vec3(2, 0, 0), Vec3(0, 2, 0)},   // back

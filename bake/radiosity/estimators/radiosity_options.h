@@ -70,7 +70,6 @@ struct RadiosityOptions {
                              // up to 32) where light changes within them (cells.h)
   bool stitch = true;        // make light continuous over the seams of the lightmap
   bool directional = false;  // fill LightmapPage::direction
-  bool indirect = false;     // cached: fill Radiosity::indirect
 };
 
 // Seams of the lightmap (seams.h), and what stitching did to the light there. Steps are differences of what bilinear
@@ -157,9 +156,6 @@ struct Radiosity {
   // By group of lamps (Scene::light_groups) and page: irradiance and details, states and cells being the pages'. Their
   // sum is the pages' light but for rounding. Empty where there are no groups, or the estimator does not tell.
   std::vector<std::vector<LightmapPage>> groups{};
-  // By page: the light that surfaces reflect, without what comes from lamps at once or by way of specular reflections
-  // alone. Without finer light and directions. Empty unless asked for.
-  std::vector<LightmapPage> indirect{};
   RadiosityReport report;
 };
 

@@ -1,4 +1,4 @@
-#include "player/passes/volume_cache.h"
+#include "study/diefenbach1997/volume_cache.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,7 +6,7 @@
 
 #include "player/scene/surface.h"
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 constexpr std::uint64_t kKept = 64;  // frames that a volume is kept for without being drawn
@@ -94,7 +94,7 @@ CutTriangles cut_triangles(std::span<const Vec3> positions, std::span<const UVec
 
 Result<VolumeCache> VolumeCache::create(gpu::Dialect dialect) {
   VolumeCache cache;
-  ORIEL_TRY(cache.program_, gpu::Program::create("shadow_volume", dialect));
+  ORIEL_TRY(cache.program_, gpu::Program::create("diefenbach1997_volume", dialect));
   return cache;
 }
 
@@ -118,7 +118,7 @@ std::shared_ptr<const VolumeCache::Caster> VolumeCache::make_caster(std::span<co
 // Parts of one node, and of one name, are one object.
 void VolumeCache::take_scene(const GpuScene& scene) {
   const Mesh& mesh = scene.pack().mesh;
-  objects_.clear(), volumes_.clear(), bytes_ = 0;
+  objects_.clear(), volumes_.clear(), stats_.bytes = 0;
   mirrors_.clear(), apertures_.clear(), aperture_volumes_.clear();
   std::map<std::string, std::vector<UVec3>> by_name;
   for (const MeshPart& part : mesh.parts)
@@ -165,9 +165,10 @@ void VolumeCache::begin(const FrameContext& context, std::span<const PlacedMover
                         std::span<const LightMirror> mirrors) {
   const GpuScene& scene = context.scene;
   ++frame_;
+  stats_ = {.bytes = stats_.bytes};
   std::erase_if(volumes_, [&](const auto& entry) {
     const bool old = entry.second.used + kKept < frame_;
-    if (old) bytes_ -= entry.second.bytes;
+    if (old) stats_.bytes -= entry.second.bytes;
     return old;
   });
   if (scene_ != scene.geometry_serial()) take_scene(scene);
@@ -211,31 +212,31 @@ std::shared_ptr<const VolumeCache::Caster> VolumeCache::caster_of(Object& object
 }
 
 const VolumeCache::Volume& VolumeCache::volume(const Key& key, const std::shared_ptr<const Caster>& caster,
-                                               const Vec4& light, std::uint64_t moved, MultiPassStats& stats) {
+                                               const Vec4& light, std::uint64_t moved) {
   Volume& volume = volumes_[key];
   volume.used = frame_;
   if (volume.caster == caster && volume.light == light) {
-    ++stats.reused;
+    ++stats_.reused;
     return volume;
   }
   const auto start = std::chrono::steady_clock::now();
-  ++(volume.caster == nullptr ? stats.built_new
-     : moved > volume.built   ? stats.built_for_object
-                              : stats.built_for_light);
+  ++(volume.caster == nullptr ? stats_.built_new
+     : moved > volume.built   ? stats_.built_for_object
+                              : stats_.built_for_light);
   const ShadowMesh::WholeVolumes built = caster->mesh.whole_volumes(light);
-  bytes_ -= volume.bytes;
+  stats_.bytes -= volume.bytes;
   volume.caster = caster, volume.light = light, volume.built = frame_;
   volume.count = static_cast<GLsizei>(built.indices.size()), volume.sides = static_cast<GLsizei>(built.sides);
   volume.bytes = built.indices.size() * sizeof(std::uint32_t);
-  bytes_ += volume.bytes;
+  stats_.bytes += volume.bytes;
   glBindVertexArray(caster->vertices.name());
   volume.indices = gpu::Buffer(GL_ELEMENT_ARRAY_BUFFER, std::span<const std::uint32_t>(built.indices));
   glBindVertexArray(0);
-  stats.build_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  stats_.build_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return volume;
 }
 
-std::uint32_t VolumeCache::around(const Request& request, const Vec4& place, MultiPassStats& stats) {
+std::uint32_t VolumeCache::around(const Request& request, const Vec4& place) {
   std::uint32_t count = 0;
   for (Object& object : objects_) {
     if (!object.there || object.whole->empty()) continue;
@@ -244,7 +245,6 @@ std::uint32_t VolumeCache::around(const Request& request, const Vec4& place, Mul
     const Vec4 at = place_in(request.leg.last_from_leg * object.pack_from_object, place);
     const Vec4 light = place_in(object.pack_from_object, request.leg.light);
     if (!may_meet(caster->bounds, at, light)) continue;
-    ++stats.places_asked;
     count += caster->mesh.triangles_between(at, light);
   }
   return count;
@@ -292,11 +292,10 @@ void VolumeCache::draw(const Request& request, const View& view, GLuint bits, Fr
     const auto caster = caster_of(object, cuts);
     if (caster->empty()) continue;
     const Vec4 light = place_in(object.pack_from_object, request.leg.light);
-    const Volume& shadows = volume({i, request.path.source, before, cuts}, caster, light, object.moved, stats.passes);
+    const Volume& shadows = volume({i, request.path.source, before, cuts}, caster, light, object.moved);
     draw_volume(shadows, view.clip_from_pack * request.leg.last_from_leg * object.pack_from_object, flipped, stats);
   }
   end_draw();
-  stats.passes.volume_bytes = bytes_;
 }
 
 std::uint32_t VolumeCache::around_aperture(const Request& request, const Vec4& place) {
@@ -324,4 +323,4 @@ void VolumeCache::draw_aperture(const Request& request, const View& view, GLuint
   end_draw();
 }
 
-}  // namespace oriel
+}  // namespace oriel::study

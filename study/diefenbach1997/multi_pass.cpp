@@ -1,9 +1,9 @@
-#include "player/passes/multi_pass.h"
+#include "study/diefenbach1997/multi_pass.h"
 
 #include "player/gpu/raster_state.h"
 #include "player/scene/surface.h"
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 // Of the passes' stencil.
@@ -25,17 +25,12 @@ std::vector<LightMirror> mirrors_of(GpuScene& scene, const FrameOptions& options
 
 }  // namespace
 
-LitImage LitImage::of(const FrameTarget& frame) {
-  if (frame.light_samples) return {frame.sampled, nullptr, &frame.light_samples};
-  return {frame.framebuffer, &frame.light, nullptr};
-}
-
 Status MultiPass::make_programs() {
   if (volumes_) return {};
   if (!epoxy_is_desktop_gl())
-    return fail(ErrorCode::kRuntime, "--method diefenbach1997", "found OpenGL ES, expected OpenGL, which clamps depth");
-  ORIEL_TRY(light_, gpu::Program::create("lamp_light", dialect_));
-  ORIEL_TRY(plain_light_, gpu::Program::create("lamp_light", dialect_, "PLAIN"));
+    return fail(ErrorCode::kRuntime, "OpenGL", "found OpenGL ES, expected OpenGL, which clamps depth");
+  ORIEL_TRY(light_, gpu::Program::create("diefenbach1997_lamp", dialect_));
+  ORIEL_TRY(plain_light_, gpu::Program::create("diefenbach1997_lamp", dialect_, "PLAIN"));
   ORIEL_TRY(every_pixel_, gpu::Program::create("screen_probe", dialect_));
   no_vertices_ = gpu::make_vertex_array();
   ORIEL_TRY(VolumeCache volumes, VolumeCache::create(dialect_));
@@ -44,15 +39,20 @@ Status MultiPass::make_programs() {
 }
 
 Status MultiPass::begin(const FrameContext& context, std::span<const PlacedMover> movers) {
-  const MultiPassSettings& how = context.options.multi_pass;
   ORIEL_TRY_VOID(make_programs());
   mirrors_ = mirrors_of(context.scene, context.options);
-  sources_ = sources_of(context.scene.bright_lights(), how.points, context.options.look);
-  paths_ = find_light_paths(sources_, mirrors_, how.mirrors);
+  sources_ = sources_of(context.scene.bright_lights(), settings.points, context.options.look);
+  paths_ = find_light_paths(sources_, mirrors_, settings.mirrors);
   volumes_->begin(context, movers, mirrors_);
-  context.stats.passes.paths = static_cast<std::uint32_t>(paths_.paths.size());
-  context.stats.passes.left_out = static_cast<std::uint32_t>(paths_.left_out);
+  stats_ = {.paths = static_cast<std::uint32_t>(paths_.paths.size()),
+            .left_out = static_cast<std::uint32_t>(paths_.left_out)};
   return {};
+}
+
+MultiPassStats MultiPass::stats() const {
+  MultiPassStats out = stats_;
+  if (volumes_) out.volumes = volumes_->stats();
+  return out;
 }
 
 Result<MultiPass::Target*> MultiPass::target_of(const LitImage& image) {
@@ -116,21 +116,19 @@ void MultiPass::mark_apertures(const FrameContext& context, const LightPath& pat
     count_from(volumes_->around_aperture(request, context.view.eye));
     volumes_->draw_aperture(request, context.view, kCountBits, context.stats);
     draw_fullscreen(outside);
-    ++context.stats.passes.aperture_passes;
+    ++stats_.aperture_passes;
   }
 }
 
 void MultiPass::mark_shadows(const FrameContext& context, const LightPath& path, std::span<const PathLeg> legs) {
-  const MultiPassSettings& how = context.options.multi_pass;
-  const bool any = static_cast<int>(path.mirrors.size()) <= how.shadow_mirrors;
-  const std::size_t first = !any ? legs.size() : how.bent_shadows ? 0 : legs.size() - 1;
+  const bool any = static_cast<int>(path.mirrors.size()) <= settings.shadow_mirrors;
+  const std::size_t first = !any ? legs.size() : settings.bent_shadows ? 0 : legs.size() - 1;
   std::uint32_t around = 0;
-  for (std::size_t i = first; i < legs.size(); ++i)
-    around += volumes_->around({path, i, legs[i]}, context.view.eye, context.stats.passes);
+  for (std::size_t i = first; i < legs.size(); ++i) around += volumes_->around({path, i, legs[i]}, context.view.eye);
   count_from(around);
   for (std::size_t i = first; i < legs.size(); ++i) {
     volumes_->draw({path, i, legs[i]}, context.view, kCountBits, context.stats);
-    ++context.stats.passes.shadow_passes;
+    ++stats_.shadow_passes;
   }
 }
 
@@ -165,7 +163,7 @@ void MultiPass::set_path(const gpu::Program& program, const FrameContext& contex
 }
 
 void MultiPass::add_light(const FrameContext& context, const LitBatches& lit, const LightPath& path,
-                          std::span<const PathLeg> legs) const {
+                          std::span<const PathLeg> legs) {
   const auto& [scene, view, options, stats] = context;
   set_path(plain_light_, context, path, legs);
   set_path(light_, context, path, legs);
@@ -196,11 +194,11 @@ void MultiPass::add_light(const FrameContext& context, const LitBatches& lit, co
     draw(lit_bits | kImageBit, lit_value, lit.weights.undirected);
     draw(lit_bits | kImageBit, lit_value | static_cast<GLint>(kImageBit), 0);
   }
-  ++stats.passes.light_passes;
+  ++stats_.light_passes;
 }
 
 Status MultiPass::add_light(const FrameContext& context, const LitImage& image, const LitBatches& lit) {
-  ++context.stats.passes.images;
+  ++stats_.images;
   if (paths_.paths.empty()) return {};
   ORIEL_TRY(Target* const target, target_of(image));
   target->framebuffer.bind();
@@ -219,4 +217,4 @@ Status MultiPass::add_light(const FrameContext& context, const LitImage& image, 
   return {};
 }
 
-}  // namespace oriel
+}  // namespace oriel::study

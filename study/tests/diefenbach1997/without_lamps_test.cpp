@@ -1,13 +1,20 @@
 // What surfaces reflect, without the light of lamps: the rest is their closed form.
 #include <gtest/gtest.h>
 
-#include "tests/bake/radiosity/baked.h"
+#include <cstdlib>
 
-namespace oriel {
+#include "bake/run/option_table.h"
+#include "formats/pack/writer.h"
+#include "study/diefenbach1997/without_lamps.h"
+#include "study/support/shown_scene.h"
+#include "tests/bake/radiosity/baked.h"
+#include "tests/support/temporary_folder.h"
+
+namespace oriel::study {
 namespace {
 
-using test::Baked;
-using test::SceneParts;
+using oriel::test::Baked;
+using oriel::test::SceneParts;
 
 const Vec3 kLamp(1.1f, 1.4f, 0.8f);
 
@@ -26,13 +33,20 @@ Scene empty_box(float albedo) {
 }
 
 RadiosityOptions options() {
-  RadiosityOptions options = test::cached_options(0);
+  RadiosityOptions options = oriel::test::cached_options(0);
   options.samples = 1024;  // of all texels: an error asked for would leave direct light two samples where it is smooth
   options.fit_texels = false;  // texels are means
   options.detail = 1;
   options.stitch = false;
-  options.indirect = true;
   return options;
+}
+
+std::vector<LightmapPage> reflected_in(const Baked& b) {
+  const Accel accel = *Accel::build(b.scene);
+  const LightSet lights(b.scene);
+  const Transport transport(accel, lights, PathOptions());
+  Context context;
+  return *bake_reflected({transport, b.atlas, b.texel_map}, options(), context);
 }
 
 // The mean over a texel of the lamp's closed form.
@@ -53,16 +67,17 @@ double direct(const Baked& b, std::size_t page, std::size_t i) {
 
 TEST(Indirect, AllLightLessItIsTheClosedFormOfTheLamp) {
   for (const float albedo : {0.0f, 0.5f}) {
-    const Baked b = test::bake(empty_box(albedo), 0.1f, options());
-    ASSERT_EQ(b.radiosity.indirect.size(), b.radiosity.pages.size());
+    const Baked b = oriel::test::bake(empty_box(albedo), 0.1f, options());
+    const std::vector<LightmapPage> pages = reflected_in(b);
+    ASSERT_EQ(pages.size(), b.radiosity.pages.size());
     double off = 0, sum = 0, reflected = 0;
     for (std::size_t p = 0; p < b.texel_map.size(); ++p)
       for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
         const std::uint32_t t = b.texel_map[p].texel[i];
-        const double whole = b.radiosity.pages[p].irradiance[t].g, rest = b.radiosity.indirect[p].irradiance[t].g;
+        const double whole = b.radiosity.pages[p].irradiance[t].g, rest = pages[p].irradiance[t].g;
         const double closed = direct(b, p, i);
         off += std::abs(whole - rest - closed), sum += closed, reflected += rest;
-        EXPECT_EQ(b.radiosity.indirect[p].state[t], b.radiosity.pages[p].state[t]);
+        EXPECT_EQ(pages[p].state[t], b.radiosity.pages[p].state[t]);
         EXPECT_GE(rest, 0);
       }
     EXPECT_LT(off / sum, 0.01) << albedo;
@@ -84,16 +99,58 @@ TEST(Indirect, IsWithoutLightByMirrors) {
   sun.direction = {0.5f, -std::sqrt(0.75f), 0};
   sun.intensity = Vec3(1000);
   parts.scene().lights = {sun};
-  const Baked b = test::bake(parts.finish(), 0.1f, options());
+  const Baked b = oriel::test::bake(parts.finish(), 0.1f, options());
+  const std::vector<LightmapPage> pages = reflected_in(b);
   float most = 0, most_indirect = 0;
   for (std::size_t p = 0; p < b.radiosity.pages.size(); ++p)
     for (std::size_t t = 0; t < b.radiosity.pages[p].irradiance.size(); ++t) {
       most = std::max(most, b.radiosity.pages[p].irradiance[t].g);
-      most_indirect = std::max(most_indirect, b.radiosity.indirect[p].irradiance[t].g);
+      most_indirect = std::max(most_indirect, pages[p].irradiance[t].g);
     }
   EXPECT_GT(most, 700);
   EXPECT_LT(most_indirect, 1);
 }
 
+class WithoutLamps : public ::testing::Test {
+ protected:
+  int run(const std::string& command) const {
+    return std::system(("cd '" + folder_.path().string() + "' && '" + ORIEL_BIN_DIR + "'/" + command).c_str());
+  }
+  const oriel::testing::TemporaryFolder folder_;
+};
+
+// What lamps give at once is not in the lightmap, the lamps are listed, mirrors have no maps.
+TEST_F(WithoutLamps, TheGalleryIsBaked) {
+  ASSERT_EQ(run("oriel-scenes gallery -o gallery.glb"), 0);
+  BakeOptions options = command_line_defaults();
+  options.choose_texel = false, options.atlas.texel_m = 1;
+  options.radiosity.samples = 4;
+  ASSERT_TRUE(settle(options, {}));
+  const std::string scene = folder_.path() / "gallery.glb", kept = folder_.path() / "passes.oriel";
+  const Pack all = *open_or_bake(scene, options), passes = *bake_without_lamps(scene, options);
+  EXPECT_TRUE(passes.radiance_maps.empty() && passes.light_groups.empty());
+  EXPECT_EQ(passes.reflectors.size(), all.reflectors.size());
+  EXPECT_GT(passes.light_field.lights.size(), 0u);
+  EXPECT_EQ(passes.light_field.bands, 2);
+  ASSERT_EQ(passes.lightmaps.size(), all.lightmaps.size());
+  double lux = 0, of_all = 0;
+  for (std::size_t p = 0; p < passes.lightmaps.size(); ++p) {
+    ASSERT_EQ(passes.lightmaps[p].irradiance.size(), all.lightmaps[p].irradiance.size());
+    for (std::size_t t = 0; t < passes.lightmaps[p].irradiance.size(); ++t) {
+      lux += passes.lightmaps[p].irradiance[t].g;
+      of_all += all.lightmaps[p].irradiance[t].g;
+    }
+  }
+  EXPECT_GT(lux, 0.1 * of_all);
+  EXPECT_LT(lux, 0.9 * of_all);
+
+  ASSERT_TRUE(write_pack(kept, passes));
+  EXPECT_TRUE(open_without_lamps(kept, options));
+  ASSERT_TRUE(write_pack(kept, all));
+  const auto refused = open_without_lamps(kept, options);
+  ASSERT_FALSE(refused) << "it holds the light of lamps";
+  EXPECT_EQ(refused.error().code, ErrorCode::kInvalid);
+}
+
 }  // namespace
-}  // namespace oriel
+}  // namespace oriel::study

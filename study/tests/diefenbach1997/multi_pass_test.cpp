@@ -3,11 +3,11 @@
 #include <functional>
 
 #include "formats/query/camera.h"
-#include "tests/player/frame_fixture.h"
+#include "study/tests/diefenbach1997/passes_fixture.h"
 
-namespace oriel {
+namespace oriel::study {
 namespace {
-using namespace testing;
+using namespace oriel::testing;
 
 constexpr int kWidth = 96, kHeight = 72;
 
@@ -50,12 +50,8 @@ void add_plane_mirror(Pack& pack, const Vec3& corner, const Vec3& right, const V
   pack.mesh.parts.back().name = "mirror";
 }
 
-FrameOptions in_passes(int mirrors = 0) {
-  FrameOptions options;
-  options.reflections = Reflections::kGeometry;
-  options.multi_pass.on = true;
-  options.multi_pass.mirrors = mirrors;
-  return options;
+MultiPassSettings by_mirrors(int mirrors) {
+  return {.mirrors = mirrors};
 }
 
 // Where a pixel sees the floor, if it does.
@@ -89,7 +85,7 @@ bool hides(const Vec3& eye, const Vec3& p, float z, const Vec2& lower, const Vec
   return p.z < z && inside({c.x, c.y}, lower, upper) > -0.1f;
 }
 
-class MultiPassFrame : public FrameTest {
+class MultiPassFrame : public PassesTest {
  protected:
   // Holds pixels of the floor against `lux`; negative: it does not tell, near an edge. What was looked at.
   int compare(const Picture& picture, const Camera& camera, const std::function<float(const Vec3&)>& lux) {
@@ -115,10 +111,10 @@ TEST_F(MultiPassFrame, PointLightIsItsClosedForm) {
   Pack pack = dark_pack();
   add_floor(pack);
   pack.light_field.lights = {point_light({0.5f, 2, -0.5f}, Vec3(100))};
-  const Picture p = draw(pack, kAbove, kWidth, kHeight, in_passes());
+  const PassPicture p = draw(pack, kAbove, kWidth, kHeight, by_mirrors(0));
   EXPECT_GT(compare(p, kAbove, [](const Vec3& at) { return 100 * facing({0.5f, 2, -0.5f}, at); }), 3000);
-  EXPECT_EQ(p.stats.passes.light_passes, 1u);
-  EXPECT_EQ(p.stats.passes.shadow_passes, 1u);
+  EXPECT_EQ(p.passes.light_passes, 1u);
+  EXPECT_EQ(p.passes.shadow_passes, 1u);
 }
 
 TEST_F(MultiPassFrame, SunAndSpotAreTheirs) {
@@ -133,7 +129,7 @@ TEST_F(MultiPassFrame, SunAndSpotAreTheirs) {
   spot.direction = {0, -1, 0};
   spot.inner_cone_rad = 0.2f, spot.outer_cone_rad = 0.4f;
   pack.light_field.lights = {sun, spot};
-  const Picture p = draw(pack, kAbove, kWidth, kHeight, in_passes());
+  const PassPicture p = draw(pack, kAbove, kWidth, kHeight, by_mirrors(0));
   const auto lux = [&](const Vec3& at) {
     const Vec3 to = glm::normalize(Vec3(0, 3, 0) - at);
     const float t = std::clamp((to.y - std::cos(0.4f)) / (std::cos(0.2f) - std::cos(0.4f)), 0.0f, 1.0f);
@@ -154,7 +150,7 @@ TEST_F(MultiPassFrame, AnOpenSheetThrowsItsShadow) {
     const Vec3 light(0.2f, 3, 0.1f);
     pack.light_field.lights = {point_light(light, Vec3(100))};
     const Camera camera = look_at({0, 0.8f, 3.9f}, {0, 0, 0}, 0.9f);  // sees under the sheet
-    const Picture p = draw(pack, camera, kWidth, kHeight, in_passes());
+    const PassPicture p = draw(pack, camera, kWidth, kHeight, by_mirrors(0));
     const auto lux = [&](const Vec3& at) {
       const Vec3 c = crossing_at(at, light, 1, 1);
       const float in = inside({c.x, c.z}, {-0.5f, -0.5f}, {0.5f, 0.5f});
@@ -181,9 +177,9 @@ TEST_F(MultiPassFrame, TheEyeMayBeWithinVolumes) {
     return in > 0 || behind > 0 ? 0.0f : 100 * facing(light, at);
   };
   const Camera under = look_at({0, 1.5f, 0}, {0, 0, 3}, 1.4f);
-  EXPECT_GT(compare(draw(pack, under, kWidth, kHeight, in_passes()), under, lux), 1500) << "within one volume";
+  EXPECT_GT(compare(draw(pack, under, kWidth, kHeight, by_mirrors(0)), under, lux), 1500) << "within one volume";
   const Camera through = look_at({0, 0.7f, -3.5f}, {0, 0, 3.5f}, 0.9f);  // the wall's back is towards it
-  EXPECT_GT(compare(draw(pack, through, kWidth, kHeight, in_passes()), through, lux), 800) << "through a back";
+  EXPECT_GT(compare(draw(pack, through, kWidth, kHeight, by_mirrors(0)), through, lux), 800) << "through a back";
 }
 
 // A mirror's virtual light, cut by its outline.
@@ -202,9 +198,9 @@ TEST_F(MultiPassFrame, LightComesByWayOfAMirrorThroughItsOutline) {
     if (hides({0, 5, 5}, at, -2, {-0.5f, 0.5f}, {0.5f, 1.5f})) return -1.0f;
     return (shadow > 0 ? 0 : 100 * facing(light, at)) + (in > 0 ? 50 * facing(image, at) : 0);
   };
-  const Picture p = draw(pack, kAbove, kWidth, kHeight, in_passes(1));
+  const PassPicture p = draw(pack, kAbove, kWidth, kHeight, by_mirrors(1));
   EXPECT_GT(compare(p, kAbove, lux), 3000);
-  EXPECT_EQ(p.stats.passes.light_passes, 2u * p.stats.passes.images);
+  EXPECT_EQ(p.passes.light_passes, 2u * p.passes.images);
 }
 
 // Both stretches of a way by a mirror have shadows; either can be left out.
@@ -233,18 +229,18 @@ TEST_F(MultiPassFrame, ShadowsAreThrownBeforeAndBehindAMirror) {
       const bool blocked = shadows && (behind > 0 || (bent && first > 0));
       return (direct > 0 ? 0 : 100 * facing(light, at)) + (in > 0 && !blocked ? 50 * facing(image, at) : 0);
     };
-    FrameOptions options = in_passes(1);
-    const Picture all = draw(pack, kAbove, kWidth, kHeight, options);
+    MultiPassSettings how = by_mirrors(1);
+    const PassPicture all = draw(pack, kAbove, kWidth, kHeight, how);
     EXPECT_GT(compare(all, kAbove, [&](const Vec3& at) { return lux(at, true, true); }), 1500) << before;
-    options.multi_pass.bent_shadows = false;
-    const Picture straight = draw(pack, kAbove, kWidth, kHeight, options);
+    how.bent_shadows = false;
+    const PassPicture straight = draw(pack, kAbove, kWidth, kHeight, how);
     EXPECT_GT(compare(straight, kAbove, [&](const Vec3& at) { return lux(at, false, true); }), 1500) << before;
-    options.multi_pass.shadow_mirrors = 0;
-    const Picture none = draw(pack, kAbove, kWidth, kHeight, options);
+    how.shadow_mirrors = 0;
+    const PassPicture none = draw(pack, kAbove, kWidth, kHeight, how);
     EXPECT_GT(compare(none, kAbove, [&](const Vec3& at) { return lux(at, false, false); }), 1500) << before;
-    EXPECT_EQ(all.stats.passes.shadow_passes, 3 * all.stats.passes.images);
-    EXPECT_EQ(straight.stats.passes.shadow_passes, 2 * all.stats.passes.images);
-    EXPECT_EQ(none.stats.passes.shadow_passes, all.stats.passes.images);
+    EXPECT_EQ(all.passes.shadow_passes, 3 * all.passes.images);
+    EXPECT_EQ(straight.passes.shadow_passes, 2 * all.passes.images);
+    EXPECT_EQ(none.passes.shadow_passes, all.passes.images);
   }
 }
 
@@ -258,9 +254,9 @@ TEST_F(MultiPassFrame, MirrorsShowTheLight) {
   const Vec3 eye(0, 1.5f, 3), at(-0.4f, 0, 0.8f);  // seen where the mirrored eye sees it
   const Vec3 towards = Vec3(at.x, 0, -4 - at.z) - eye;
   const Camera camera = look_at(eye, eye + towards, 0.02f);
-  const Picture p = draw(pack, camera, 33, 33, in_passes(0));
+  const PassPicture p = draw(pack, camera, 33, 33, by_mirrors(0));
   EXPECT_NEAR(p.at(16, 16).x, 0.5f * kWhite * 100 * facing(light, at), 0.02f);
-  EXPECT_EQ(p.stats.passes.images, 2u);
+  EXPECT_EQ(p.passes.images, 2u);
 }
 
 // Of n mirrors that all see each other and the lamp, and to depth d of images and of light: n^d + 1 images, and in each
@@ -279,9 +275,9 @@ TEST_F(MultiPassFrame, TakesAsManyPassesAsDiefenbachCounts) {
     add_plane_mirror(pack, corner, right, up);
     pack.fresnel_maps[0] = flat_reflectance(Vec3(1));
     for (const std::uint32_t d : {1u, 2u}) {
-      FrameOptions options = in_passes(static_cast<int>(d));
+      FrameOptions options = in_passes();
       options.orders = static_cast<int>(d);
-      const MultiPassStats s = draw(pack, camera, 160, 120, options).stats.passes;
+      const MultiPassStats s = draw(pack, camera, 160, 120, by_mirrors(static_cast<int>(d)), options).passes;
       EXPECT_EQ(s.images, 1 + n + (d > 1 ? n * (n - 1) : 0)) << n << ", " << d;
       const std::uint32_t pairs = d > 1 ? n * (n - 1) : 0;
       EXPECT_EQ(s.light_passes, s.images * (1 + n + pairs)) << n << ", " << d;
@@ -295,4 +291,4 @@ TEST_F(MultiPassFrame, TakesAsManyPassesAsDiefenbachCounts) {
 }
 
 }  // namespace
-}  // namespace oriel
+}  // namespace oriel::study

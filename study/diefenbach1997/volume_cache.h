@@ -8,9 +8,9 @@
 #include "formats/shadow/shadow_mesh.h"
 #include "player/gpu/program.h"
 #include "player/movers/mover_pass.h"
-#include "player/passes/light_paths.h"
+#include "study/diefenbach1997/light_paths.h"
 
-namespace oriel {
+namespace oriel::study {
 
 // `positions` and `triangles` as far as they lie on the positive sides of the planes, where dot(plane, (p, 1)) = 0 is
 // the boundary. Triangles that share a cut edge share its new corners to the bit.
@@ -20,6 +20,14 @@ struct CutTriangles {
 };
 CutTriangles cut_triangles(std::span<const Vec3> positions, std::span<const UVec3> triangles,
                            std::span<const Vec4> planes);
+
+// Of a frame: volumes of an object and a source that were drawn as they were kept, or built for it, as the source was
+// new, or it or a mirror had moved, or the object had.
+struct VolumeStats {
+  std::uint32_t reused = 0, built_new = 0, built_for_light = 0, built_for_object = 0;
+  std::uint64_t bytes = 0;  // kept
+  double build_ms = 0;      // of the processor
+};
 
 class VolumeCache {
  public:
@@ -36,12 +44,14 @@ class VolumeCache {
     const PathLeg& leg;
   };
   // How many volumes of the request hold a place, modulo 2^32.
-  std::uint32_t around(const Request& request, const Vec4& place, MultiPassStats& stats);
+  std::uint32_t around(const Request& request, const Vec4& place);
   // Counts them into the stencil's `bits`, which hold those that are around the eye; own raster state.
   void draw(const Request& request, const View& view, GLuint bits, FrameStats& stats);
   // The same of the light volume through the mirror at whose end the stretch begins.
   std::uint32_t around_aperture(const Request& request, const Vec4& place);
   void draw_aperture(const Request& request, const View& view, GLuint bits, FrameStats& stats);
+  // Since begin().
+  const VolumeStats& stats() const { return stats_; }
 
  private:
   // What throws shadows together, or a part of it that is cut off by mirrors.
@@ -50,7 +60,6 @@ class VolumeCache {
     Bounds bounds;
     gpu::VertexArray vertices;
     std::vector<gpu::Buffer> buffers;
-    std::vector<Vec4> planes;  // that it was cut by, object space
     bool empty() const { return mesh.triangles() == 0; }
   };
   struct Object {
@@ -79,7 +88,7 @@ class VolumeCache {
   std::vector<std::uint32_t> cutting(const Object& object, std::span<const std::uint32_t> walls) const;
   std::shared_ptr<const Caster> caster_of(Object& object, const std::vector<std::uint32_t>& cuts);
   const Volume& volume(const Key& key, const std::shared_ptr<const Caster>& caster, const Vec4& light,
-                       std::uint64_t moved, MultiPassStats& stats);
+                       std::uint64_t moved);
   void draw_volume(const Volume& volume, const Mat4& clip_from_object, bool flipped, FrameStats& stats) const;
   void begin_draw(const View& view, GLuint bits) const;
   static void end_draw();
@@ -91,7 +100,7 @@ class VolumeCache {
   std::vector<Object> apertures_;  // by mirror
   std::vector<LightMirror> mirrors_;
   std::map<Key, Volume> volumes_, aperture_volumes_;
-  std::uint64_t bytes_ = 0;
+  VolumeStats stats_;
 };
 
-}  // namespace oriel
+}  // namespace oriel::study

@@ -1,17 +1,17 @@
 // Shadow volumes that are kept: what is built anew after what moved; and scenes that nobody made for them.
-#include "player/passes/volume_cache.h"
+#include "study/diefenbach1997/volume_cache.h"
 
+#include "study/tests/diefenbach1997/passes_fixture.h"
 #include "tests/player/mover_fixture.h"
 
-namespace oriel {
+namespace oriel::study {
 namespace {
-using namespace testing;
+using namespace oriel::testing;
 
 FrameOptions in_cached_passes() {
   FrameOptions options;
   options.mover_lights = MoverLights::kHarmonics;
   options.shade.lights = 0;
-  options.multi_pass.on = true;
   return options;
 }
 
@@ -28,35 +28,44 @@ Pack kept_scene() {
   return pack;
 }
 
-std::array<std::uint32_t, 4> built(const MultiPassStats& s) {
+std::array<std::uint32_t, 4> built(const VolumeStats& s) {
   return {s.built_new, s.built_for_light, s.built_for_object, s.reused};
 }
 using Built = std::array<std::uint32_t, 4>;
 
-class VolumesKept : public FrameTest {
+class VolumesKept : public PassesTest {
  protected:
-  MultiPassStats next(GpuScene& scene, const FrameOptions& options) {
-    const View view = make_view(above_floor(0, 0), 32, 24, scene.bounds());
-    const auto stats = renderer_->render(scene, view, options);
-    EXPECT_TRUE(stats) << (stats ? "" : stats.error().text());
-    return stats ? stats->passes : MultiPassStats();
+  void SetUp() override {
+    PassesTest::SetUp();
+    passes_.emplace(device_.dialect, MultiPassSettings());
   }
+  void TearDown() override {
+    passes_.reset();
+    PassesTest::TearDown();
+  }
+  VolumeStats next(GpuScene& scene, const FrameOptions& options) {
+    const View view = make_view(above_floor(0, 0), 32, 24, scene.bounds());
+    const auto stats = renderer_->render(scene, view, options, &*passes_);
+    EXPECT_TRUE(stats) << (stats ? "" : stats.error().text());
+    return passes_->stats().volumes;
+  }
+  std::optional<MultiPass> passes_;
 };
 
 TEST_F(VolumesKept, AreBuiltAnewForWhatMoved) {
   const auto scene = std::move(*GpuScene::create(kept_scene(), device_));
   FrameOptions options = in_cached_passes();
-  const MultiPassStats first = next(*scene, options);
+  const VolumeStats first = next(*scene, options);
   EXPECT_EQ(built(first), (Built{6, 0, 0, 0})) << "three objects, two lamps";
-  EXPECT_GT(first.volume_bytes, 0u);
-  const MultiPassStats second = next(*scene, options);
+  EXPECT_GT(first.bytes, 0u);
+  const VolumeStats second = next(*scene, options);
   EXPECT_EQ(built(second), (Built{0, 0, 0, 6}));
-  EXPECT_EQ(second.volume_bytes, first.volume_bytes);
+  EXPECT_EQ(second.bytes, first.bytes);
   options.poses.push_back(scene->pack().movers[0].rest);
   options.poses[0].position += DVec3(0.5, 0, 0);
   EXPECT_EQ(built(next(*scene, options)), (Built{0, 0, 2, 4})) << "the mover's alone";
   EXPECT_EQ(built(next(*scene, options)), (Built{0, 0, 0, 6}));
-  options.multi_pass.points = 8;
+  passes_->settings.points = 8;
   EXPECT_EQ(built(next(*scene, options)), (Built{0, 0, 0, 6})) << "points of lamps that have none";
 }
 
@@ -78,13 +87,12 @@ TEST_F(VolumesKept, AreBuiltAnewForAMirrorThatMoved) {
   std::vector<LightMirror> mirrors(1);
   const auto drawn = [&](float wall) {
     mirrors[0].plane = {0, 0, 1, wall};
-    stats.passes = {};
     cache.begin(context, {}, mirrors);
     for (const LightPath& path : {LightPath{0, {}}, LightPath{0, {0}}}) {
       const std::vector<PathLeg> legs = legs_of(path, sources, mirrors);
       for (std::size_t i = 0; i < legs.size(); ++i) cache.draw({path, i, legs[i]}, view, 0x3f, stats);
     }
-    return built(stats.passes);
+    return built(cache.stats());
   };
   EXPECT_EQ(drawn(5), (Built{4, 0, 0, 2})) << "two objects; the first stretch is the light's own";
   EXPECT_EQ(drawn(5), (Built{0, 0, 0, 6}));
@@ -98,7 +106,7 @@ TEST_F(VolumesKept, AreWhereTheMoverIs) {
   pack.light_field.lights.resize(1);
   const auto lit = [&](double x) {
     pack.movers[0].rest.position.x = x;
-    return draw(pack, above_floor(0.5f, 0), 9, 9, in_cached_passes()).at(4, 4).x;
+    return draw(pack, above_floor(0.5f, 0), 9, 9, {}, in_cached_passes()).at(4, 4).x;
   };
   EXPECT_EQ(lit(0), 0);
   EXPECT_GT(lit(3), 1);
@@ -110,13 +118,10 @@ TEST_F(VolumesKept, WithoutLampsTheFrameIsTheSame) {
   pack.lightmaps[0] = flat_page(Vec3(70));
   pack.light_field.lights.clear();
   for (LightProbe& probe : pack.light_field.probes) probe.bright = 0;
-  FrameOptions off = in_cached_passes();
-  off.multi_pass.on = false;
-  const Picture without = draw(pack, above_floor(0, 0), 33, 25, off),
-                with = draw(pack, above_floor(0, 0), 33, 25, in_cached_passes());
+  const Picture without = FrameTest::draw(pack, above_floor(0, 0), 33, 25, in_cached_passes());
+  const PassPicture with = draw(pack, above_floor(0, 0), 33, 25, {}, in_cached_passes());
   EXPECT_EQ(without.rgb, with.rgb);
-  EXPECT_EQ(without.stats.passes.images, 0u);
-  EXPECT_EQ(with.stats.passes.light_passes, 0u);
+  EXPECT_EQ(with.passes.light_passes, 0u);
 }
 
 // A lamp in the plane of a surface, triangles without area, and no reflector: finite light.
@@ -126,7 +131,7 @@ TEST_F(VolumesKept, OddScenesAreDrawn) {
   pack.light_field.lights[1].position = {1.5f, -1, 0.5f};  // on the sheet
   pack.mesh.indices.insert(pack.mesh.indices.end(), {0, 0, 1, 0, 1, 1});
   pack.mesh.parts.back().index_count += 6;
-  EXPECT_TRUE(draw(pack, above_floor(0.2f, 0.2f), 33, 25, in_cached_passes()).finite());
+  EXPECT_TRUE(draw(pack, above_floor(0.2f, 0.2f), 33, 25, {}, in_cached_passes()).finite());
 }
 
 // More ways than a frame draws: those by fewest mirrors are drawn, and the rest is told.
@@ -161,4 +166,4 @@ TEST(CutTriangles, ShareTheirNewCorners) {
 }
 
 }  // namespace
-}  // namespace oriel
+}  // namespace oriel::study

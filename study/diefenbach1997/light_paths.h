@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "formats/assets/light_field.h"
-#include "player/scene/frame_options.h"
+#include "formats/core/vec.h"
 
-namespace oriel {
+namespace oriel::study {
 
 // A point of a lamp, which stands for one `count`-th of it.
 struct LightSource {
@@ -50,12 +50,14 @@ std::vector<PathLeg> legs_of(const LightPath& path, std::span<const LightSource>
                              std::span<const LightMirror> mirrors);
 
 inline constexpr std::size_t kMostLightPaths = 1024;  // in a frame
+inline constexpr int kMostLightMirrors = 3;           // on a path
 
 struct LightPaths {
   std::vector<LightPath> paths;  // those by fewer mirrors first
   std::size_t left_out = 0;      // beyond kMostLightPaths
 };
-// All ways by up to `most` mirrors on which each mirror has the light before it, and the one before it too.
+// All ways by up to `most` mirrors (0 to kMostLightMirrors) on which each mirror has the light before it, and the one
+// before it too.
 LightPaths find_light_paths(std::span<const LightSource> sources, std::span<const LightMirror> mirrors, int most);
 
-}  // namespace oriel
+}  // namespace oriel::study

@@ -1,10 +1,10 @@
-#include "player/passes/light_paths.h"
+#include "study/diefenbach1997/light_paths.h"
 
 #include <algorithm>
 
 #include "player/movers/light_samples.h"
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 bool has_before(const LightMirror& mirror, const Vec4& place) {
@@ -96,4 +96,4 @@ LightPaths find_light_paths(std::span<const LightSource> sources, std::span<cons
   }
 }
 
-}  // namespace oriel
+}  // namespace oriel::study
