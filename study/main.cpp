@@ -25,12 +25,13 @@ int fail_with(const Error& error) {
 int run(int argc, char** argv) {
   gpu::add_shader_sources(shader_sources());
   ShownArguments arguments;
+  Herf1997Settings herf1997;
   const CommandLine line{ORIEL_VERSION,
                          {.name = "oriel-study",
                           .help = "oriel-study: draws and measures a scene as published systems did, to compare with.",
                           .footer = kFooter,
                           .options = {},
-                          .commands = {diefenbach1997_command(arguments)}}};
+                          .commands = {diefenbach1997_command(arguments), herf1997_command(arguments, herf1997)}}};
   const auto parsed = parse(line, argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const Status done = std::get<const ToolCommand*>(parsed)->run();

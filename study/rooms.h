@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/cli/command.h"
+#include "study/herf1997/herf1997.h"
 #include "study/support/shown_scene.h"
 
 namespace oriel::study {
@@ -11,5 +12,6 @@ std::span<const gpu::ShaderSource> shader_sources();
 
 // A room's command: its options, and what draws or measures with them. arguments outlive it.
 ToolCommand diefenbach1997_command(ShownArguments& arguments);
+ToolCommand herf1997_command(ShownArguments& arguments, Herf1997Settings& settings);
 
 }  // namespace oriel::study

@@ -1,7 +1,6 @@
 #include "player/movers/bright_pass.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "player/scene/surface.h"
 
@@ -55,7 +54,6 @@ std::span<const Vec4> points_of(const LightSamples& light, std::size_t group) {
 Result<BrightPass> BrightPass::create(gpu::Dialect dialect) {
   BrightPass pass;
   ORIEL_TRY(pass.maps_, ShadowMaps::create(dialect));
-  ORIEL_TRY(pass.textures_, ShadowTextures::create(dialect));
   ORIEL_TRY(pass.shade_, ShadePass::create(dialect));
   ORIEL_TRY(pass.surface_, gpu::Program::create("mover_surface", dialect));
   ORIEL_TRY(pass.shadow_, gpu::Program::create("mover_shadow", dialect));
@@ -167,7 +165,6 @@ void BrightPass::set_caster(const LitMovers::Caster& caster, std::span<const Vec
   shadow_.set("u_tangents", tangents);
   shadow_.set("u_layer", layer);
   shadow_.set("u_caster", id_of(caster.index));
-  shadow_.set("u_scene_counts", caster.scene_counts ? 1 : 0);
 }
 
 void BrightPass::draw_box(std::span<const Vec3> corners, FrameStats& stats) const {
@@ -218,22 +215,16 @@ void BrightPass::take_from_scene(const FrameContext& context, const LitMovers& l
   draw_rectangle(kSceneId, rectangle_of(context.view.clip_from_pack, shadows), context.stats);
 }
 
-// Where a light's shadows are textures, the maps take nothing.
-void BrightPass::leave_to_textures(const FrameContext& context, std::uint32_t light) const {
-  gpu::apply({});
-  textures_.draw(context.scene, context.view, of_scene_.surfaces, light, context.stats);
-}
-
-void BrightPass::take_by_textures(const FrameContext& context) const {
+void BrightPass::take_otherwise(const FrameContext& context, const SceneShadows& shadows) const {
   of_scene_.bind(of_scene_.change_target);
   gpu::RasterState state;
   state.blend = gpu::Blend::kAdd;
   gpu::apply(state);
   glBindVertexArray(no_vertices_.name());
-  textures_.draw(context.scene, context.view, of_scene_.surfaces, std::nullopt, context.stats);
+  shadows.draw(context, of_scene_.surfaces, std::nullopt);
 }
 
-Status BrightPass::draw_light(const FrameContext& context, const LitMovers& lit) {
+Status BrightPass::draw_light(const FrameContext& context, const LitMovers& lit, const SceneShadows* shadows) {
   const auto& [scene, view, options, stats] = context;
   const std::size_t groups = groups_of(lit.samples);
   const float reach = 2 * scene.bounds().radius();
@@ -242,7 +233,7 @@ Status BrightPass::draw_light(const FrameContext& context, const LitMovers& lit)
   const bool any_on_scene = std::ranges::any_of(lit.casters, onto_scene);
   for (std::uint32_t g = 0; g < groups; ++g)
     for (const LitMovers::Caster& caster : lit.casters)
-      requests.push_back({caster.mover, points_of(lit.samples, g), lit.light, caster.index, g, caster.scene_counts});
+      requests.push_back({caster.mover, points_of(lit.samples, g), lit.light, caster.index, g});
   ORIEL_TRY(const std::vector<int> layers, maps_.layers(scene, requests, stats));
   glBindVertexArray(no_vertices_.name());
   for (std::size_t g = 0; g < groups; ++g) {
@@ -269,28 +260,30 @@ Status BrightPass::draw_light(const FrameContext& context, const LitMovers& lit)
         [&](const LitMovers::Caster& caster) {
           if (caster.on_scene) draw_box(caster.scene_box, stats);
         },
-        [&] { leave_to_textures(context, lit.light); });
+        [&] {
+          if (shadows == nullptr) return;
+          gpu::apply({});
+          shadows->draw(context, of_scene_.surfaces, lit.light);
+        });
     take_from_scene(context, lit);
   }
   return {};
 }
 
 Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context, std::span<const DrawBatch> shown,
-                                                     std::span<const PlacedMover> movers) {
+                                                     std::span<const PlacedMover> movers, SceneShadows* shadows) {
   const auto& [scene, view, options, stats] = context;
   std::vector<LitMovers> lights =
       find_lit(scene.bright_lights(), movers, make_frustum(view.clip_from_pack), scene.bounds(), options);
   ORIEL_TRY(const bool shaded, shade_.prepare(context, movers));
   if (lights.empty() && !shaded) return std::nullopt;
   const BrightChange change{{&of_movers_.change, &of_movers_.surfaces}, &of_scene_.change, &of_scene_.surfaces};
-  const bool coarse = options.coarse && options.mover_shadows == MoverShadows::kTextures;
   Known now{scene.serial(),
             view.clip_from_pack,
             view.width,
             view.height,
             options.mover_lights,
-            options.mover_shadows,
-            coarse,
+            shadows,
             options.light_points,
             options.look,
             options.shade,
@@ -299,13 +292,11 @@ Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context
             options.visible_sets,
             {}};
   for (const PlacedMover& placed : movers) now.poses.push_back(placed.pack_from_object);
-  if (now == known_) return change;
+  if (now == known_ && shadows == nullptr) return change;
   if (known_.width != now.width || known_.height != now.height || known_.shade.every_pixel != now.shade.every_pixel)
     ORIEL_TRY_VOID(make_targets(context));
   known_ = {};
-  const auto start = std::chrono::steady_clock::now();
-  textures_.prepare(scene, view, lights, options);
-  stats.shadow_texture_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  if (shadows != nullptr) shadows->prepare(context, lights);
   draw_surfaces(context, shown, movers);
   gpu::apply({});
   glClearColor(0, 0, 0, 0);
@@ -313,8 +304,8 @@ Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context
     canvas->bind(canvas->change_target);
     glClear(GL_COLOR_BUFFER_BIT);
   }
-  for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(context, lit));
-  take_by_textures(context);
+  for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(context, lit, shadows));
+  if (shadows != nullptr) take_otherwise(context, *shadows);
   if (shaded) {
     const ShadeTarget target{of_scene_.surfaces, of_scene_.change, of_scene_.change_target, targets_};
     ORIEL_TRY_VOID(shade_.draw(context, movers, target));

@@ -16,9 +16,9 @@
 
 #include "player/gpu/raster_state.h"
 #include "player/movers/lit_movers.h"
+#include "player/movers/scene_shadows.h"
 #include "player/movers/shade_pass.h"
 #include "player/movers/shadow_maps.h"
-#include "player/movers/shadow_textures.h"
 
 namespace oriel {
 
@@ -36,8 +36,9 @@ class BrightPass {
 
   // shown: of the opaque scene. Nothing where movers change nothing;
   // what is given holds until the next call. Own framebuffers stay bound. Error kRuntime.
+  // shadows: in place of maps; none: maps alone.
   Result<std::optional<BrightChange>> draw(const FrameContext& context, std::span<const DrawBatch> shown,
-                                           std::span<const PlacedMover> movers);
+                                           std::span<const PlacedMover> movers, SceneShadows* shadows = nullptr);
   // Whether a frame of the same view would show more of the movers' shade.
   bool has_news() const { return shade_.has_news(); }
 
@@ -53,15 +54,14 @@ class BrightPass {
                      std::span<const PlacedMover> movers) const;
   void draw_batches(const FrameContext& context, std::span<const DrawBatch> batches, const Mat4& clip_from_object,
                     const Mat4& pack_from_object, int id) const;
-  Status draw_light(const FrameContext& context, const LitMovers& lit);
+  Status draw_light(const FrameContext& context, const LitMovers& lit, const SceneShadows* shadows);
   void start_shadows(const Canvas& canvas, const View& view, std::span<const Vec4> points) const;
   void set_caster(const LitMovers::Caster& caster, std::span<const Vec4> points, int layer, float reach) const;
   void draw_box(std::span<const Vec3> corners, FrameStats& stats) const;
   void start_light(const Canvas& canvas, const LitMovers& lit, std::span<const Vec4> points) const;
   void add_to_movers(const FrameContext& context, const LitMovers& lit) const;
   void take_from_scene(const FrameContext& context, const LitMovers& lit) const;
-  void leave_to_textures(const FrameContext& context, std::uint32_t light) const;
-  void take_by_textures(const FrameContext& context) const;
+  void take_otherwise(const FrameContext& context, const SceneShadows& shadows) const;
   void draw_rectangle(int id, const Vec4& rectangle, FrameStats& stats) const;
 
   // What the pictures depend on.
@@ -70,8 +70,7 @@ class BrightPass {
     Mat4 clip_from_pack{0};
     int width = 0, height = 0;
     MoverLights lights = MoverLights::kShadowed;
-    MoverShadows shadows = MoverShadows::kMaps;
-    bool coarse = false;  // textures
+    const SceneShadows* shadows = nullptr;
     int points = 0;
     std::uint32_t look = 0;
     ShadeSettings shade;
@@ -83,7 +82,6 @@ class BrightPass {
   };
 
   ShadowMaps maps_;
-  ShadowTextures textures_;
   ShadePass shade_;
   gpu::Program surface_, shadow_, light_;
   gpu::VertexArray no_vertices_;

@@ -41,7 +41,7 @@ void find_casters(std::span<const BrightLight> lights, const Frustum& frustum, c
   const std::size_t casting = std::min<std::size_t>(lit.receivers.size(), kMaxShadowMovers);
   for (const LitMovers::Receiver& r : std::span(lit.receivers).first(casting)) {
     const ShadowCone cone = make_shadow_cone(r.mover->sphere, lit.samples.center, lit.samples.radius, parallel);
-    LitMovers::Caster caster{r.mover, r.index, make_shadow_box(cone, bounds), false, {}, true, {}};
+    LitMovers::Caster caster{r.mover, r.index, make_shadow_box(cone, bounds), false, {}, {}};
     caster.scene_box = caster.box;
     Bounds box;
     for (const Vec3& corner : caster.box) box.extend(corner);

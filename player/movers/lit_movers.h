@@ -21,7 +21,6 @@ struct LitMovers {
     ShadowBox box;
     bool on_scene = false;               // its shadow is in view, and no faint one
     ShadowBox scene_box{};               // where in `box` it is looked for on the scene
-    bool scene_counts = true;            // what stands still may be before it, or gets its shadow by maps
     std::vector<std::size_t> on_movers;  // receivers in view that it may fall on, itself among them
   };
   std::uint32_t light = 0;

@@ -1,7 +1,6 @@
 #include "player/movers/mover_pass.h"
 
 #include "formats/query/mover_pose.h"
-#include "player/movers/flat_surfaces.h"
 #include "player/scene/surface.h"
 
 namespace oriel {
@@ -14,8 +13,12 @@ MoverPose placed_pose(const Pack& pack, std::span<const MoverPose> poses, std::s
 }  // namespace
 
 std::array<Vec3, 8> corners_of(const PlacedMover& placed) {
-  std::array<Vec3, 8> out = corners_of(placed.mover->bounds);
-  for (Vec3& p : out) p = Vec3(placed.pack_from_object * Vec4(p, 1));
+  const Bounds& box = placed.mover->bounds;
+  std::array<Vec3, 8> out;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Vec3 corner = glm::mix(box.lower, box.upper, Vec3(i & 1, i >> 1 & 1, i >> 2));
+    out[i] = Vec3(placed.pack_from_object * Vec4(corner, 1));
+  }
   return out;
 }
 

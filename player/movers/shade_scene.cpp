@@ -74,12 +74,12 @@ std::vector<ShadeTriangle> lit_triangles(const Pack& pack, Bounds& bounds) {
 // Half way between the first thing along a ray and the second: so far from both, a map's texels may be wide (Woo 1992,
 // "The Shadow Depth Map Revisited"). Infinite where there are not two.
 float middle_of_first(const LampScene& scene, const Vec3& from, const Vec3& ray) {
-  constexpr float kFar = std::numeric_limits<float>::infinity();
+  constexpr float kEndless = std::numeric_limits<float>::infinity();
   const auto first = scene.first_surface(from, ray);
-  if (!first) return kFar;
+  if (!first) return kEndless;
   const float beyond = first->distance * (1 + kSheet) + scene.offset_m() / glm::length(ray);
   const auto second = scene.first_surface(from + beyond * ray, ray);
-  return second ? 0.5f * (first->distance + beyond + second->distance) : kFar;
+  return second ? 0.5f * (first->distance + beyond + second->distance) : kEndless;
 }
 
 void look_from(ShadeScene& scene, std::uint32_t light) {

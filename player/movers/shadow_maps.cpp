@@ -111,12 +111,9 @@ Result<std::vector<int>> ShadowMaps::layers(const GpuScene& scene, std::span<con
     const bool points =
         !is_new && std::equal(known.points.begin(), known.points.end(), r.points.begin(), r.points.end());
     const bool still = points && known.sphere == r.mover->sphere;
-    const bool has_scene = still && known.of_scene;
-    if (r.of_scene && !has_scene) draw(scene, r, layer, true, stats);
+    if (!still) draw(scene, r, layer, true, stats);
     if (!still || known.pose != r.mover->pack_from_object) draw(scene, r, layer, false, stats);
-    known = {
-        layer, r.mover->pack_from_object, r.mover->sphere, has_scene || r.of_scene, {r.points.begin(), r.points.end()},
-        calls_};
+    known = {layer, r.mover->pack_from_object, r.mover->sphere, {r.points.begin(), r.points.end()}, calls_};
     out.push_back(layer);
   }
   return out;

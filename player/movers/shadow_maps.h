@@ -23,7 +23,6 @@ class ShadowMaps {
     const PlacedMover* mover = nullptr;
     std::span<const Vec4> points;                   // LightSamples::at, one to kPointsOfLayer
     std::uint32_t light = 0, index = 0, group = 0;  // of the pack; of the mover; of these among the light's points
-    bool of_scene = true;                           // whether the scene's map is wanted
   };
   // The layers of at most kMaxShadowMovers movers and all points of a light, drawn where they are not known. They hold
   // until the next call. Its own framebuffer stays bound where it drew. Error kRuntime.
@@ -37,7 +36,6 @@ class ShadowMaps {
     int layer = 0;
     Mat4 pose{1};
     Vec4 sphere{0};
-    bool of_scene = false;  // the scene's map is there
     std::vector<Vec4> points;
     std::uint64_t used = 0;  // by which call
   };

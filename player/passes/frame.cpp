@@ -107,8 +107,11 @@ Status Renderer::ensure_frame(int width, int height, int samples, bool halves) {
 }
 
 Result<std::optional<BrightChange>> Renderer::draw_change(const FrameContext& context, std::span<const DrawBatch> shown,
-                                                          std::span<const PlacedMover> movers) {
-  ORIEL_TRY(const auto change, clock_.time(Pass::kMovers, [&] { return bright_pass_.draw(context, shown, movers); }));
+                                                          std::span<const PlacedMover> movers,
+                                                          FrameExtension* extension) {
+  SceneShadows* const shadows = extension ? extension->scene_shadows() : nullptr;
+  const auto draw = [&] { return bright_pass_.draw(context, shown, movers, shadows); };
+  ORIEL_TRY(const auto change, clock_.time(Pass::kMovers, draw));
   frame_->drawn().bind();
   glViewport(0, 0, context.view.width, context.view.height);
   return change;
@@ -180,7 +183,7 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
   marked_ = std::move(marks.materials);
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
-    ORIEL_TRY(const auto change, draw_change(context, shown, movers));
+    ORIEL_TRY(const auto change, draw_change(context, shown, movers, extension));
     drew_movers_ = !movers.empty();
     clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(context, shown, weights, marks.reflective, change); });
     if (extension) ORIEL_TRY_VOID(add_light(context, {shown, false, marks.reflective, weights}, *extension));

@@ -58,7 +58,7 @@ class Renderer {
   Status draw_light(const FrameContext& context, std::span<const DrawBatch> shown, FrameExtension* extension);
   // What movers change of the light on what is seen, if anything.
   Result<std::optional<BrightChange>> draw_change(const FrameContext& context, std::span<const DrawBatch> shown,
-                                                  std::span<const PlacedMover> movers);
+                                                  std::span<const PlacedMover> movers, FrameExtension* extension);
   Status add_light(const FrameContext& context, const LitBatches& lit, FrameExtension& extension);
 
   gpu::Device device_;

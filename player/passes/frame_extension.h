@@ -6,6 +6,7 @@
 
 #include "player/gpu/framebuffer.h"
 #include "player/movers/mover_pass.h"
+#include "player/movers/scene_shadows.h"
 #include "player/passes/scene_pass.h"
 #include "player/passes/targets.h"
 #include "player/reflections/image_target.h"
@@ -39,6 +40,8 @@ class FrameExtension {
   virtual Status begin(const FrameContext&, std::span<const PlacedMover>) { return {}; }
   // Adds light to what the lightmap lights, in the frame and in images of mirrors. Own framebuffers may stay bound.
   virtual Status add_light(const FrameContext&, const LitImage&, const LitBatches&) { return {}; }
+  // What draws shadows of movers on the scene; none: shadow maps alone.
+  virtual SceneShadows* scene_shadows() { return nullptr; }
 };
 
 }  // namespace oriel

@@ -34,10 +34,6 @@ enum class Reflectance { kTable, kSphereMap };
 // How movers meet bright lights: with shadows of their own, without any, or as harmonics like all other light.
 enum class MoverLights { kShadowed, kUnshadowed, kHarmonics };
 
-// How movers' shadows on the scene are made: shadow maps everywhere, or soft-shadow textures where lamp and receiver
-// are flat and shadow maps elsewhere.
-enum class MoverShadows { kMaps, kTextures };
-
 // How the shade of movers in the light from everywhere is found, for comparison: each light at each pixel; those that
 // movers may block in a cell of space, at its pixels (Barczak 2006, section 4.3.1); likewise at one of sixteen pixels,
 // and at all of them where surfaces end (4.3.3); likewise, cells with like lights drawn together (4.3.5); or, in place
@@ -98,7 +94,6 @@ struct FrameOptions {
   std::vector<MoverPose> lamps{};  // by Pack::light_groups, from where they were baked; empty: all are there
   LiveSettings live{};             // of lamps that are not
   MoverLights mover_lights = MoverLights::kShadowed;
-  MoverShadows mover_shadows = MoverShadows::kMaps;
   ShadeSettings shade{};
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
   // Which it is of frames that are added up: lights' points and rays of frosted glass are others in each, even over
@@ -159,8 +154,7 @@ struct FrameStats {
   // Of opaque ones without a kernel, by march: of the pixels those in which a map pixel covers no more than two.
   std::uint64_t mirror_pixels = 0, sharp = 0;
   ShadeStats shade;
-  PassTimes ms{};                // by pass, where asked for
-  double shadow_texture_ms = 0;  // of the processor's soft-shadow textures, a part of the movers' pass
+  PassTimes ms{};  // by pass, where asked for
 };
 
 }  // namespace oriel

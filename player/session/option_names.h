@@ -29,8 +29,6 @@ inline constexpr Named<LightmapFilter> kLightmapFilters[] = {{"bicubic", Lightma
 inline constexpr Named<MoverLights> kMoverLights[] = {{"harmonics", MoverLights::kHarmonics},
                                                       {"shadowed", MoverLights::kShadowed},
                                                       {"unshadowed", MoverLights::kUnshadowed}};
-inline constexpr Named<MoverShadows> kMoverShadows[] = {{"maps", MoverShadows::kMaps},
-                                                        {"textures", MoverShadows::kTextures}};
 
 inline constexpr Named<ShadeWork> kShadeWorks[] = {{"cells", ShadeWork::kCells},
                                                    {"each", ShadeWork::kEachLight},

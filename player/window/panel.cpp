@@ -86,7 +86,6 @@ void draw_places(const Pack& pack, Session& session) {
 
 void draw_movers(const Pack& pack, Session& session) {
   choose("their light", kMoverLights, session.frame.mover_lights);
-  choose("their shadows", kMoverShadows, session.frame.mover_shadows);
   if (ImGui::Button("all back")) perform({Action::kMoversBack, 0}, pack, session);
   for (std::size_t i = 0; i < std::min(pack.movers.size(), session.frame.poses.size()); ++i) {
     const DVec3 at = DVec3(session.frame.poses[i].position) + pack.mesh.origin;

@@ -14,7 +14,6 @@ uniform mat4 u_places[4];  // place_from_pack
 uniform vec4 u_depths[4];  // depth_terms of the mover's map and the scene's
 uniform vec4 u_tangents;   // Shaft
 uniform int u_caster;
-uniform bool u_scene_counts;  // whether the scene has a map
 layout(location = 0) out vec4 o_taken;
 
 // Share of the light that passes what a map holds. place: [0, 1] inside, and the distance along the shaft or one over it.
@@ -34,7 +33,7 @@ float taken_of(int i, LitSurface surface) {
   vec2 texel = corner + clamp((0.5 + 0.5 * place.xy / place.w) * tile, 0.5, tile - 0.5);
   float along = u_at[i].w == 0.0 ? place.z : 1.0 / place.z;
   float mover = passes(u_mover_depth, texel, u_depths[i].xy, along);
-  float still = u_scene_counts && (surface.id == 0 || surface.id == u_caster) ? passes(u_scene_depth, texel, u_depths[i].zw, along) : 1.0;
+  float still = surface.id == 0 || surface.id == u_caster ? passes(u_scene_depth, texel, u_depths[i].zw, along) : 1.0;
   return surface.id == 0 ? still * (1.0 - mover) : 1.0 - still * mover;
 }
 

@@ -19,7 +19,6 @@ constexpr int kMostLines = 60;
 
 // Kernels, whose parameters are the formula's or the loop's, and what others call by a signature of theirs.
 const std::set<std::string> kExempt = {
-    "sum_strip",      // formats/shadow: all of it is inlined into one loop
     "print_message",  // player/gpu: OpenGL's
 };
 

@@ -25,7 +25,7 @@ const Arrows kRestsOn = {
     {"formats/image", {"formats/core"}},
     {"formats/assets", {"formats/core"}},
     {"formats/query", {"formats/assets"}},
-    {"formats/shadow", {"formats/core"}},  // shared by bake and player: no scene, no OpenGL
+    {"formats/shadow", {"formats/core"}},  // shared by player and preview: no scene, no OpenGL
     {"formats/pack", {"formats/query"}},
     {"formats/analysis", {"formats/pack", "formats/image"}},
     {"formats/export", {"formats/analysis"}},
@@ -55,9 +55,9 @@ const Arrows kRestsOn = {
     {"player/navigation", {"formats/pack"}},
     {"player/images", {"player/gpu", "player/navigation"}},
     {"player/scene", {"player/images"}},
-    {"player/movers", {"player/scene", "formats/shadow"}},
+    {"player/movers", {"player/scene"}},
     {"player/reflections", {"player/scene"}},
-    {"player/passes", {"player/movers", "player/reflections", "formats/image"}},
+    {"player/passes", {"player/movers", "player/reflections", "formats/image", "formats/shadow"}},
     {"player/session", {"player/passes", "formats/analysis", "formats/cli"}},
     {"player/output", {"player/session"}},
     {"player/window", {"player/output"}},

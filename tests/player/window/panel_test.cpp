@@ -30,7 +30,6 @@ std::map<std::string, std::string> state_of(const Session& s) {
           {"kernel", name_of(kKernelPlaces, s.frame.kernel)},
           {"Fresnel", name_of(kReflectances, s.frame.reflectance)},
           {"their light", name_of(kMoverLights, s.frame.mover_lights)},
-          {"their shadows", name_of(kMoverShadows, s.frame.mover_shadows)},
           {"moves", std::to_string(s.moves.size())},
           {"visible sets", s.frame.visible_sets ? "on" : "off"},
           {"fly", s.move.fly ? "on" : "off"},
