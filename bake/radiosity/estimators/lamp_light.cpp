@@ -29,8 +29,8 @@ void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums&
     if (!sums.beside_moments.empty())
       sums.beside_moments[i] = lamps.moments[i] / static_cast<float>(kHalves * lamps.particles);
     for (int h = 0; h < kHalves; ++h)
-      for (std::size_t g = 0; g < lamps.booked[h].groups; ++g)
-        sums.beside_booked[h].of(i)[g] = lamps.booked[h].of(i)[g] / static_cast<float>(lamps.particles);
+      for (std::size_t g = 0; g < lamps.grouped[h].groups; ++g)
+        sums.beside_grouped[h].of(i)[g] = lamps.grouped[h].of(i)[g] / static_cast<float>(lamps.particles);
   }
 }
 
@@ -40,7 +40,7 @@ LightBeside smooth_beside(const LampLight& lamps, const Texels& texels, const Te
   Halves halves{sums.beside, std::vector<Vec3>(texels.count()), std::vector<Vec3>(texels.count())};
   for (std::size_t i = 0; i < texels.count(); ++i) halves.beside[i] = sums.mean(i);
   return {filter(texels, graph, halves, {.scales = 1}, context).value,
-          filter_groups(texels, graph, GroupHalves{sums.beside_booked}, {.scales = 1}, context)};
+          filter_groups(texels, graph, GroupHalves{sums.beside_grouped}, {.scales = 1}, context)};
 }
 
 bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const Vec3> light,

@@ -26,13 +26,13 @@ float radiance_beside(const LightAround& light, std::uint32_t i) {
 
 }  // namespace
 
-LightAround::LightAround(const Texels& t, const MoreSites& s, const CachedLight& cached, std::span<const Vec3> gathered,
-                         std::span<const float> of_frames)
-    : texels(t), sites(s), shares(of_frames), radiance(t.count()) {
+LightAround::LightAround(const Texels& t, const ExtraSamplePoints& s, const CachedLight& cached,
+                         std::span<const Vec3> gathered, std::span<const float> of_frames)
+    : texels(t), sample_points(s), importance(of_frames), radiance(t.count()) {
   double sum = 0, all = 0;
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     radiance[i] = luminance(cached.texels[i].radiance);
-    sum += double{shares[i]} * luminance(gathered[i]), all += shares[i];
+    sum += double{importance[i]} * luminance(gathered[i]), all += importance[i];
   }
   if (!(all > 0)) return;
   reflected = static_cast<float>(sum / all);
@@ -63,8 +63,8 @@ std::vector<std::uint32_t> BrightTexels::bright(const LightAround& light) const 
     return !(light.texels.area_m2[i] > 0) || !std::isfinite(sends(i)) || !(sends(i) > least * light.texels.area_m2[i]);
   });
   double seen = 0;
-  for (const std::uint32_t i : list) seen += light.shares[i];
-  if (seen > kCommon * std::accumulate(light.shares.begin(), light.shares.end(), 0.0)) return {};
+  for (const std::uint32_t i : list) seen += light.importance[i];
+  if (seen > kCommon * std::accumulate(light.importance.begin(), light.importance.end(), 0.0)) return {};
   if (list.size() <= kTexels) return list;
   std::vector<std::uint32_t> order(list.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -84,7 +84,7 @@ void BrightTexels::add_regions(const LightAround& light, std::uint32_t texel, st
   const std::uint32_t tries = texels.is_cut[texel] ? kDivided * count : count;
   for (int half = 0; half < kHalves; ++half)
     for (std::uint32_t k = 0; k < tries; ++k) {
-      const SurfacePoint on = light.sites.candidate(texel, half, k);
+      const SurfacePoint on = light.sample_points.candidate(texel, half, k);
       const Texels::Place place = texels.place(on.triangle, on.barycentric);
       const bool here = place.lies_on == texel, gap = here && place.in_lit_gap, open = here && place.texel == texel;
       beside.normal += on.geometric_normal;
@@ -94,10 +94,10 @@ void BrightTexels::add_regions(const LightAround& light, std::uint32_t texel, st
     }
   in_gap.normal = beside.normal;
   const auto add = [&](Region& region, float radiance, std::size_t points, std::vector<std::uint32_t>& number) {
-    region.texels2 = light.sites.texels2(texel);
+    region.area_texels2 = light.sample_points.area_texels2(texel);
     region.power =
         kPi * radiance * texels.area_m2[texel] * static_cast<float>(points) / static_cast<float>(kHalves * tries);
-    if (!(radiance > kBright * light.reflected / kPi) || !(region.power > 0) || !(region.texels2 > 0)) return;
+    if (!(radiance > kBright * light.reflected / kPi) || !(region.power > 0) || !(region.area_texels2 > 0)) return;
     if (glm::length(region.normal) > 0) region.normal = glm::normalize(region.normal);
     number[texel] = static_cast<std::uint32_t>(regions_.size());
     regions_.push_back(std::move(region)), texel_of_.push_back(texel);
@@ -160,7 +160,7 @@ void BrightTexels::keep_strongest() {
   clusters_ = std::move(kept);
 }
 
-BrightTexels::Aim BrightTexels::aim(const TexelSite& receiver) const {
+BrightTexels::Aim BrightTexels::aim(const SamplePoint& receiver) const {
   Aim until;
   float sum = 0;
   for (const Cluster& c : clusters_) {
@@ -209,7 +209,7 @@ float BrightTexels::density(const Aim& aim, std::uint32_t r, const Ray& ray, con
   const std::uint32_t c = region.cluster;
   const float chance = (aim[c] - (c > 0 ? aim[c - 1] : 0)) / aim.back() * region.power / clusters_[c].power;
   const Scene& scene = accel_->scene();
-  const float per_m2 = texels_->texels2_per_m2(scene, hit.triangle) / region.texels2;
+  const float per_m2 = texels_->texels2_per_m2(scene, hit.triangle) / region.area_texels2;
   const float cosine = std::fabs(glm::dot(geometry_at(scene, hit, ray.direction).geometric_normal, ray.direction));
   return chance * per_m2 * hit.distance * hit.distance / std::max(cosine, 1e-6f);
 }

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bake/radiosity/gather/surroundings.h"
-#include "bake/radiosity/texels/more_sites.h"
+#include "bake/radiosity/texels/extra_sample_points.h"
 
 namespace oriel {
 
@@ -14,14 +14,14 @@ struct CachedLight;
 // What is known of light before any ray is aimed.
 struct LightAround {
   const Texels& texels;
-  const MoreSites& sites;
-  std::span<const float> shares;  // of frames, by texel
-  std::vector<float> radiance;    // luminance by texel, cd/m²
-  float reflected = 0;            // of what eyes see: lit by reflected light alone, lux, mean
+  const ExtraSamplePoints& sample_points;
+  std::span<const float> importance;  // of frames, by texel
+  std::vector<float> radiance;             // luminance by texel, cd/m²
+  float reflected = 0;                     // of what eyes see: lit by reflected light alone, lux, mean
 
   // gathered: reflected light by texel, lux.
-  LightAround(const Texels& texels, const MoreSites& sites, const CachedLight& cached, std::span<const Vec3> gathered,
-              std::span<const float> shares);
+  LightAround(const Texels& texels, const ExtraSamplePoints& sample_points, const CachedLight& cached,
+              std::span<const Vec3> gathered, std::span<const float> importance);
 };
 
 // Both kinds of ray add up to all light, weighted by the balance heuristic (Veach 1997, section 9.2): the density of
@@ -38,7 +38,7 @@ class BrightTexels {
   // How a receiver shares its rays among the clusters: sums of what each would bring, were nothing in the way, lux.
   // Empty: no ray is worth it.
   using Aim = std::vector<float>;
-  Aim aim(const TexelSite& receiver) const;
+  Aim aim(const SamplePoint& receiver) const;
 
   struct Target {
     Vec3 point{0};
@@ -67,8 +67,8 @@ class BrightTexels {
   // A texel's part beside a lamp, or under it.
   struct Region {
     std::uint32_t cluster = 0;
-    float texels2 = 0;  // the whole texel's surface on its page, in texels
-    float power = 0;    // of the part, lm
+    float area_texels2 = 0;  // the whole texel's surface on its page, in texels
+    float power = 0;         // of the part, lm
     Vec3 normal{0};
     std::array<std::vector<std::optional<Vec3>>, kHalves> points;  // even over the whole texel; none: of another part
   };

@@ -7,8 +7,8 @@ namespace {
 
 Vec3 centre_of(const Texels& texels, std::size_t i) {
   Vec3 sum(0);
-  for (const TexelSite& site : texels.site[i]) sum += site.origin;
-  return sum / static_cast<float>(kSites);
+  for (const SamplePoint& point : texels.sample_points[i]) sum += point.origin;
+  return sum / static_cast<float>(kSamplePoints);
 }
 
 // The gradient along the surface that best tells the neighbours' light.
@@ -43,8 +43,8 @@ void fit_slope(const TexelGraph& graph, const Vec3& normal, std::size_t i, std::
 void limit_slope(const Texels& texels, std::size_t i, CachedTexel& texel) {
   for (int c = 0; c < 3; ++c) {
     float most = 0;
-    for (const TexelSite& site : texels.site[i])
-      most = std::max(most, std::abs(glm::dot(texel.slope[c], site.origin - texel.centre)));
+    for (const SamplePoint& point : texels.sample_points[i])
+      most = std::max(most, std::abs(glm::dot(texel.slope[c], point.origin - texel.centre)));
     if (!(texel.radiance[c] > 0))
       texel.slope[c] = Vec3(0);
     else if (most > texel.radiance[c])
@@ -66,7 +66,7 @@ CachedLight cache_light(const Texels& texels, const TexelGraph& graph, std::span
   (void)parallel_for(context, "", (n + kRun - 1) / kRun, [&](std::size_t run) {
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {
       if (texels.visible[i] == 0) continue;
-      fit_slope(graph, texels.site[i][0].geometric_normal, i, light.texels, light.texels[i]);
+      fit_slope(graph, texels.sample_points[i][0].geometric_normal, i, light.texels, light.texels[i]);
       limit_slope(texels, i, light.texels[i]);
     }
   });

@@ -1,7 +1,7 @@
 // What rays find at texels: light that varies over them.
 #pragma once
 
-#include "bake/radiosity/texels/booked.h"
+#include "bake/radiosity/texels/grouped_light.h"
 #include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {
@@ -24,13 +24,13 @@ class BrightTexels;
 struct CachedLight {
   std::span<const Vec3> irradiance;  // by texel, lux
   std::vector<CachedTexel> texels;
-  const BookedLight* booked = nullptr;   // of irradiance, by group of lamps; null: nobody asks
-  const BrightTexels* bright = nullptr;  // at which rays are aimed; null: at none
+  const GroupedLight* grouped = nullptr;  // of irradiance, by group of lamps; null: nobody asks
+  const BrightTexels* bright = nullptr;   // at which rays are aimed; null: at none
 
   // Adds to `groups` light of a texel that counts by `weight` for each lux; within a texel all groups' light varies
   // alike.
   void book(std::uint32_t texel, const Vec3& weight, std::span<Vec3> groups) const {
-    const std::span<const Vec3> light = booked->of(texel);
+    const std::span<const Vec3> light = grouped->of(texel);
     for (std::size_t g = 0; g < groups.size(); ++g) groups[g] += weight * light[g];
   }
 };

@@ -17,8 +17,8 @@ constexpr std::size_t kGroup = 64;  // texels whose rays of one number are trace
 class GroupGather {
  public:
   GroupGather(const FinalGather& scene, std::span<const std::uint32_t> list, const ShiftedNet& net, bool moments)
-      : texels_(scene.sites.texels()),
-        sites_(scene.sites),
+      : texels_(scene.sample_points.texels()),
+        sample_points_(scene.sample_points),
         around_(scene.around),
         cached_(scene.cached),
         net_(net),
@@ -27,7 +27,7 @@ class GroupGather {
       if (texels_.visible[t] == 0) continue;
       members_.emplace_back();
       members_.back().texel = t;
-      if (cached_.bright) members_.back().aim = cached_.bright->aim(texels_.site_for(t, 0, 0));
+      if (cached_.bright) members_.back().aim = cached_.bright->aim(texels_.sample_point(t, 0, 0));
     }
   }
 
@@ -37,7 +37,7 @@ class GroupGather {
     for (int half = 0; half < kHalves; ++half) {
       for (Member& m : members_) {
         m.sum = m.slope = Vec3(0), m.moments = Vec4(0);
-        m.booked.assign(around_.groups(), Vec3(0));
+        m.grouped.assign(around_.groups(), Vec3(0));
         m.done = sums.samples[m.texel];
         const std::uint64_t stream = std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half);
         m.shift = net_.shift(stream), m.aim_shift = net_.shift(stream | kAimed);
@@ -50,8 +50,8 @@ class GroupGather {
         sums.sum[half][m.texel] += m.sum;
         sums.slope[half][m.texel] += m.slope;
         if (moments_) sums.moments[m.texel] += m.moments;
-        const std::span<Vec3> booked = sums.booked[half].of(m.texel);
-        for (std::size_t g = 0; g < booked.size(); ++g) booked[g] += m.booked[g];
+        const std::span<Vec3> grouped = sums.grouped[half].of(m.texel);
+        for (std::size_t g = 0; g < grouped.size(); ++g) grouped[g] += m.grouped[g];
       }
     }
     for (const Member& m : members_) sums.samples[m.texel] = per_half;
@@ -59,9 +59,9 @@ class GroupGather {
   std::uint64_t rays() const { return rays_; }
 
  private:
-  static constexpr std::uint32_t kKeptSites = kSitesPerHalf;       // most texels have no others
-  static constexpr std::uint32_t kRaysAPoint = 16;                 // once all that are kept were used
-  static constexpr std::uint64_t kAimed = std::uint64_t{1} << 62;  // of streams: of aimed rays
+  static constexpr std::uint32_t kKeptSites = kSamplePointsPerHalf;  // most texels have no others
+  static constexpr std::uint32_t kRaysAPoint = 16;                   // once all that are kept were used
+  static constexpr std::uint64_t kAimed = std::uint64_t{1} << 62;    // of streams: of aimed rays
   struct Sent {
     std::uint32_t member = 0;         // into members_
     std::uint32_t region = kNoTexel;  // at which it is aimed
@@ -75,21 +75,23 @@ class GroupGather {
     std::array<GatherSite, kKeptSites> site;
     Vec3 sum{0}, slope{0};
     Vec4 moments{0};
-    std::vector<Vec3> booked;  // by group of lamps
+    std::vector<Vec3> grouped;  // by group of lamps
   };
 
   // Points that are kept serve again until each of them had a few rays; then each few rays have a new one, for no
   // number of rays makes up for points too few.
   void fetch_sites(int half, std::uint32_t k, bool all) {
     for (Member& m : members_) {
-      const std::uint32_t kept = texels_.kept_sites(m.texel, half);
-      const std::uint32_t serve = texels_.has_many[m.texel] ? kept : kRaysAPoint;
+      const std::uint32_t kept = texels_.sample_point_count(m.texel, half);
+      const std::uint32_t serve = texels_.occlusion_heavy[m.texel] ? kept : kRaysAPoint;
       if (m.done >= k + kKeptSites) continue;
       if (k >= serve) {
         if (k % kRaysAPoint == 0 || m.done > k - k % kRaysAPoint)
-          m.site.fill(GatherSite(sites_.at(m.texel, half, kept + k / kRaysAPoint - serve / kRaysAPoint, rays_)));
-      } else if (all || texels_.has_many[m.texel] || m.done + kKeptSites > k) {
-        for (std::uint32_t i = 0; i < kKeptSites; ++i) m.site[i] = GatherSite(texels_.site_for(m.texel, half, k + i));
+          m.site.fill(
+              GatherSite(sample_points_.at(m.texel, half, kept + k / kRaysAPoint - serve / kRaysAPoint, rays_)));
+      } else if (all || texels_.occlusion_heavy[m.texel] || m.done + kKeptSites > k) {
+        for (std::uint32_t i = 0; i < kKeptSites; ++i)
+          m.site[i] = GatherSite(texels_.sample_point(m.texel, half, k + i));
       }
     }
   }
@@ -115,8 +117,8 @@ class GroupGather {
     rays_ += batch_.size() + answers_.rays;
     auto& light = answers_.light;
     for (const Link& link : answers_.links) light[link.ray] += link.weight * cached_.irradiance[link.texel] / kPi;
-    if (cached_.booked)
-      for (const Link& link : answers_.links) cached_.book(link.texel, link.weight / kPi, booked_of(link.ray));
+    if (cached_.grouped)
+      for (const Link& link : answers_.links) cached_.book(link.texel, link.weight / kPi, grouped_of_ray(link.ray));
     for (std::size_t i = 0; i < batch_.size(); ++i) {
       Member& m = members_[sent_[i].member];
       const float factor = over_density(i, m);
@@ -127,17 +129,17 @@ class GroupGather {
         const Vec3 there = met.at(batch_[i].origin + answers_.hits[i].distance * batch_[i].direction);
         light[i] += answers_.share[i] * there;
         slope = factor * answers_.share[i] * (there - met.radiance);
-        if (cached_.booked)
+        if (cached_.grouped)
           cached_.book(texel, answers_.share[i] * there / glm::max(cached_.irradiance[texel], Vec3(1e-30f)),
-                       booked_of(i));
+                       grouped_of_ray(i));
       }
       if (!is_usable(light[i]) || !std::isfinite(factor)) {
         around_.transport().accel.dropped().add(answers_.hits[i].triangle);
         continue;
       }
       m.sum += factor * light[i];
-      const std::span<Vec3> booked = booked_of(i);
-      for (std::size_t g = 0; g < booked.size(); ++g) m.booked[g] += factor * booked[g];
+      const std::span<Vec3> grouped = grouped_of_ray(i);
+      for (std::size_t g = 0; g < grouped.size(); ++g) m.grouped[g] += factor * grouped[g];
       m.slope += slope;
       if (moments_)
         m.moments +=
@@ -163,12 +165,12 @@ class GroupGather {
     return incidence / (incidence / kPi + cached_.bright->density(m.aim, region, batch_[i], hit));
   }
 
-  std::span<Vec3> booked_of(std::size_t ray) {
-    return std::span(answers_.booked).subspan(ray * around_.groups(), around_.groups());
+  std::span<Vec3> grouped_of_ray(std::size_t ray) {
+    return std::span(answers_.grouped).subspan(ray * around_.groups(), around_.groups());
   }
 
   const Texels& texels_;
-  const MoreSites& sites_;
+  const ExtraSamplePoints& sample_points_;
   const Surroundings& around_;
   const CachedLight& cached_;
   const ShiftedNet& net_;
@@ -188,22 +190,22 @@ Status FinalGather::run(std::span<const std::uint32_t> list, std::uint32_t per_h
   const Context& context = stage.context;
   const ShiftedNet net(context.seed + seeds::kGather, per_half);
   const Hash128 light = context.units ? hash_of(cached.irradiance) : Hash128();
-  const Hash128 booked_light = context.units && cached.booked ? hash_of(cached.booked->light) : Hash128();
+  const Hash128 grouped_light = context.units && cached.grouped ? hash_of(cached.grouped->light) : Hash128();
   const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
   const auto sums_of = [&](std::size_t g, Archive& archive) {
     for (const std::uint32_t t : part(g)) {
       archive(sums.samples[t]);
       for (int h = 0; h < kHalves; ++h) archive(sums.sum[h][t], sums.slope[h][t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
-      for (BookedLight& booked : sums.booked)
-        if (!booked.empty()) archive(booked.of(t));
+      for (GroupedLight& grouped : sums.grouped)
+        if (!grouped.empty()) archive(grouped.of(t));
     }
   };
   UnitLoop loop{.stage = "gather", .count = (list.size() + kGroup - 1) / kGroup};
   loop.rays = static_cast<double>(kGroup * kHalves) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) {
-    key(light, part(g), per_half, around.near(), around.lamps(), around.survival(), sites.texels().eyes);
-    if (cached.booked) key(booked_light);
+    key(light, part(g), per_half, around.near(), around.lamps(), around.survival(), sample_points.texels().eyes);
+    if (cached.grouped) key(grouped_light);
     if (cached.bright) key(cached.bright->name());
     sums_of(g, key);  // samples are added to them
   };

@@ -4,7 +4,7 @@
 #include "bake/radiosity/gather/cached_light.h"
 #include "bake/radiosity/gather/gather_site.h"
 #include "bake/radiosity/gather/surroundings.h"
-#include "bake/radiosity/texels/more_sites.h"
+#include "bake/radiosity/texels/extra_sample_points.h"
 
 namespace oriel {
 
@@ -19,14 +19,14 @@ struct HalfSums {
   // Σ of luminance over the sphere, both halves: vector (xyz) and mean (w) as LightmapPage::direction wants them, times
   // samples. Empty unless asked for.
   std::vector<Vec4> moments;
-  std::array<BookedLight, kHalves> booked, beside_booked;  // of `sum` and `beside`, by group of lamps
+  std::array<GroupedLight, kHalves> grouped, beside_grouped;  // of `sum` and `beside`, by group of lamps
 
   HalfSums(std::size_t texels, bool directional, std::size_t groups = 0)
       : samples(texels),
         beside_moments(directional ? texels : 0),
         moments(directional ? texels : 0),
-        booked{BookedLight(texels, groups), BookedLight(texels, groups)},
-        beside_booked(booked) {
+        grouped{GroupedLight(texels, groups), GroupedLight(texels, groups)},
+        beside_grouped(grouped) {
     for (auto& s : sum) s.resize(texels);
     for (auto& s : slope) s.resize(texels);
     for (auto& b : beside) b.resize(texels);
@@ -34,7 +34,7 @@ struct HalfSums {
   void forget(std::size_t i) {
     for (int h = 0; h < kHalves; ++h) sum[h][i] = slope[h][i] = Vec3(0);
     if (!moments.empty()) moments[i] = Vec4(0);
-    for (BookedLight& half : booked) std::ranges::fill(half.of(i), Vec3(0));
+    for (GroupedLight& half : grouped) std::ranges::fill(half.of(i), Vec3(0));
     samples[i] = 0;
   }
   void take(std::size_t i, const HalfSums& from, std::size_t k) {
@@ -48,29 +48,29 @@ struct HalfSums {
   }
   // Stands for a sample that was not taken: light known from elsewhere, uncertain by that share of it. of_groups: the
   // same by group of lamps, of all texels.
-  void assume(std::size_t i, const Vec3& light, float uncertain, const BookedLight& of_groups) {
+  void assume(std::size_t i, const Vec3& light, float uncertain, const GroupedLight& of_groups) {
     sum[0][i] = (1 + uncertain) * light, sum[1][i] = (1 - uncertain) * light;
     samples[i] = 1;
-    for (BookedLight& half : booked) std::ranges::copy(of_groups.of(i), half.of(i).begin());
+    for (GroupedLight& half : grouped) std::ranges::copy(of_groups.of(i), half.of(i).begin());
   }
   Vec3 half(int h, std::size_t i) const {
     return beside[h][i] + (samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0));
   }
   Vec3 mean(std::size_t i) const { return 0.5f * (half(0, i) + half(1, i)); }
   // Of the halves' light by group.
-  std::array<BookedLight, kHalves> booked_halves() const {
-    std::array<BookedLight, kHalves> halves = beside_booked;
+  std::array<GroupedLight, kHalves> grouped_halves() const {
+    std::array<GroupedLight, kHalves> halves = beside_grouped;
     for (int h = 0; h < kHalves; ++h)
       for (std::size_t i = 0; i < samples.size(); ++i)
         for (std::size_t g = 0; g < halves[h].groups && samples[i] > 0; ++g)
-          halves[h].of(i)[g] += booked[h].of(i)[g] / static_cast<float>(samples[i]);
+          halves[h].of(i)[g] += grouped[h].of(i)[g] / static_cast<float>(samples[i]);
     return halves;
   }
 };
 
 // From where rays leave, what they meet, and the light that is there.
 struct FinalGather {
-  const MoreSites& sites;
+  const ExtraSamplePoints& sample_points;
   const Surroundings& around;
   const CachedLight& cached;
 

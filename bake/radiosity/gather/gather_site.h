@@ -12,7 +12,7 @@ namespace oriel {
 class GatherSite {
  public:
   GatherSite() = default;
-  explicit GatherSite(const TexelSite& site)
+  explicit GatherSite(const SamplePoint& site)
       : frame_(frame_from_normal(site.normal)), site_(site), tilted_(site.normal != site.geometric_normal) {}
 
   // Cosine-distributed about the site's normal, mirrored above the real surface where it falls below. u: [0, 1)².
@@ -37,7 +37,7 @@ class GatherSite {
 
  private:
   Mat3 frame_{1};
-  TexelSite site_;
+  SamplePoint site_;
   bool tilted_ = false;
 };
 

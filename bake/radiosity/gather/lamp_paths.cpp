@@ -44,17 +44,17 @@ void add_up(std::vector<Arrival>& arrivals) {
 }
 
 // The same light by group of lamps.
-struct BookedArrival {
+struct GroupedArrival {
   std::uint32_t texel = 0, group = 0;
   Vec3 light{0};
 };
-void fields(Archive& archive, BookedArrival& a) {
+void fields(Archive& archive, GroupedArrival& a) {
   archive(a.texel, a.group, a.light);
 }
 
 // Of particles of one group; adds them to those of others.
-void book(std::span<const Arrival> arrivals, std::uint32_t group, std::vector<BookedArrival>& booked) {
-  for (const Arrival& a : arrivals) booked.push_back({a.texel, group, a.light});
+void book(std::span<const Arrival> arrivals, std::uint32_t group, std::vector<GroupedArrival>& grouped) {
+  for (const Arrival& a : arrivals) grouped.push_back({a.texel, group, a.light});
 }
 
 std::uint32_t group_of(const Particle& particle) {
@@ -154,7 +154,7 @@ class LampWalk {
       // Irradiance goes by the interpolated normal.
       const float tilt = Shading(on_texel, on_texel.normal).cosine(from) / cosine;
       const Vec3 light = power_ * (tilt / (texels_.area_m2[texel] * texels_.visible[texel]));
-      const float incidence = std::max(glm::dot(texels_.site[texel][0].normal, from), kLeastCosine);
+      const float incidence = std::max(glm::dot(texels_.sample_points[texel][0].normal, from), kLeastCosine);
       if (is_usable(light))
         arrivals_.push_back({texel, light, moments_of(luminance(light) / incidence, from)});
       else
@@ -266,7 +266,7 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
     const std::uint64_t first = light.particles, count = std::min(per_half - first, kUnit * (kUnits / kHalves));
     const std::size_t units = (count + kUnit - 1) / kUnit;  // of each half
     std::vector<std::vector<Arrival>> arrivals(units * kHalves);
-    std::vector<std::vector<BookedArrival>> booked(units * kHalves);
+    std::vector<std::vector<GroupedArrival>> grouped(units * kHalves);
     UnitLoop loop{.stage = "lamp paths", .count = arrivals.size(), .rays = 4.0 * kUnit};
     loop.inputs = [&](std::size_t u, Archive& key) { key(first, count, u, around.near(), texels.eyes); };
     loop.compute = [&](std::size_t u) {
@@ -278,7 +278,7 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
           const auto particle = emit(sampler);
           const std::size_t before = arrivals[u].size();
           traced += LampWalk(texels, around, sampler, arrivals[u]).run(particle);
-          if (!light.booked[0].empty()) book(std::span(arrivals[u]).subspan(before), group_of(particle), booked[u]);
+          if (!light.grouped[0].empty()) book(std::span(arrivals[u]).subspan(before), group_of(particle), grouped[u]);
         };
         if (near) follow(seeds::kLampPaths, [&](Sampler& s) { return sources.emit(SourceKind::kNear, s); });
         if (!suns.empty()) follow(seeds::kPolished + 1, [&](Sampler& s) { return suns.emit(s, traced); });
@@ -288,11 +288,11 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
     };
     loop.results = [&](std::size_t u, Archive& archive) {
       archive(arrivals[u]);
-      if (!light.booked[0].empty()) archive(booked[u]);
+      if (!light.grouped[0].empty()) archive(grouped[u]);
     };
     ORIEL_TRY_VOID(parallel_units(stage, loop));
-    for (std::size_t u = 0; u < booked.size(); ++u)
-      for (const BookedArrival& a : booked[u]) light.booked[u % kHalves].of(a.texel)[a.group] += a.light;
+    for (std::size_t u = 0; u < grouped.size(); ++u)
+      for (const GroupedArrival& a : grouped[u]) light.grouped[u % kHalves].of(a.texel)[a.group] += a.light;
     for (std::size_t u = 0; u < arrivals.size(); ++u)
       for (const Arrival& a : arrivals[u]) {
         light.sum[u % kHalves][a.texel] += a.light;

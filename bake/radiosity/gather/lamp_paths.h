@@ -5,7 +5,7 @@
 
 #include "bake/radiosity/gather/polished_suns.h"
 #include "bake/radiosity/gather/surroundings.h"
-#include "bake/radiosity/texels/booked.h"
+#include "bake/radiosity/texels/grouped_light.h"
 
 namespace oriel {
 
@@ -13,12 +13,12 @@ namespace oriel {
 struct LampLight {
   std::array<std::vector<Vec3>, kHalves> sum;  // lux * particles
   std::vector<Vec4> moments;                   // as those of HalfSums, of both halves; empty unless asked for
-  std::array<BookedLight, kHalves> booked;     // of `sum`, by group of lamps
+  std::array<GroupedLight, kHalves> grouped;   // of `sum`, by group of lamps
   std::uint64_t particles = 0;                 // of each half
   std::shared_ptr<const PolishedSuns> suns;    // made when first asked for
 
   LampLight(std::size_t texels, bool directional, std::size_t groups = 0)
-      : moments(directional ? texels : 0), booked{BookedLight(texels, groups), BookedLight(texels, groups)} {
+      : moments(directional ? texels : 0), grouped{GroupedLight(texels, groups), GroupedLight(texels, groups)} {
     for (auto& s : sum) s.resize(texels);
   }
   Vec3 half(int h, std::size_t i) const { return particles ? sum[h][i] / static_cast<float>(particles) : Vec3(0); }

@@ -39,7 +39,7 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
   answers.places.assign(rays.size(), {});
   answers.texel.assign(rays.size(), kNoTexel);
   answers.share.assign(rays.size(), 1.0f);
-  answers.booked.assign(rays.size() * groups(), Vec3(0));
+  answers.grouped.assign(rays.size() * groups(), Vec3(0));
   answers.links.clear();
   answers.rays = 0;
   t_.accel.intersect(rays, answers.hits);
@@ -51,14 +51,14 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
       answers.light[i] = answers.unreflected[i];
       if (groups() > 0)
         each_owner(scene(), sky_owner(scene()), rays[i].direction, answers.light[i],
-                   [&](std::uint32_t group, const Vec3& light) { answers.booked[i * groups() + group] = light; });
+                   [&](std::uint32_t group, const Vec3& light) { answers.grouped[i * groups() + group] = light; });
       continue;
     }
     const Kind kind = kinds_[hit.triangle];
     if (kind == Kind::kMatt && !hit.front) continue;  // texels hold the light of fronts
     if (hit.front) answers.places[i] = texels_.place(hit.triangle, hit.barycentric);
     const std::uint32_t texel = answers.places[i].texel;
-    if (kind == Kind::kOther || answers.places[i].is_untold() || is_near(about[i], hit.distance, texel) ||
+    if (kind == Kind::kOther || answers.places[i].is_unevaluated() || is_near(about[i], hit.distance, texel) ||
         (kind == Kind::kLayered && texel == kNoTexel)) {
       follow(rays[i], about[i], hit, i, answers);
       continue;
@@ -100,7 +100,7 @@ std::optional<float> Surroundings::link_to(const GatherRay& about, const Diffuse
                                            Answers& answers) const {
   const Texels::Place place = v.front ? texels_.place(v.triangle, v.barycentric) : Texels::Place();
   const std::uint32_t texel = place.texel;
-  if (place.is_untold() || is_near(about, v.distance, texel)) return std::nullopt;
+  if (place.is_unevaluated() || is_near(about, v.distance, texel)) return std::nullopt;
   if (texel != kNoTexel) answers.links.push_back({number, texel, v.weight});
   return survival_of(v.triangle);
 }

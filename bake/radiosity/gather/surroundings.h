@@ -37,7 +37,7 @@ struct Answers {
   // By ray: sky, emitters behind mirrors, emitters that closed forms do not hold, and what near surfaces reflect.
   std::vector<Vec3> light;
   std::vector<Vec3> unreflected;  // of it what comes straight from the sky and from emitters
-  std::vector<Vec3> booked;       // light by group of lamps, at ray * groups + group; empty where there are none
+  std::vector<Vec3> grouped;      // light by group of lamps, at ray * groups + group; empty where there are none
   std::uint64_t rays = 0;         // traced, beyond the batch itself
 };
 
@@ -63,7 +63,8 @@ class Surroundings {
   std::size_t groups() const { return scene().light_groups.size(); }  // of lamps
   // Whether a path goes on from a texel that is met from that far, all light in it.
   bool goes_on(float distance, std::uint32_t texel) const {
-    return texel != kNoTexel && distance < near_ * (texels_.has_many[texel] ? kCrowdedNear : 1.0f) * side_[texel];
+    return texel != kNoTexel &&
+           distance < near_ * (texels_.occlusion_heavy[texel] ? kCrowdedNear : 1.0f) * side_[texel];
   }
 
   // Light of near lamps that comes by way of specular reflections alone is left out of answers: somebody else follows
@@ -97,7 +98,7 @@ class Surroundings {
                                Answers& answers) const;  // as OnDiffuse
 
   void book(std::uint32_t number, std::span<const Vec3> light, Answers& answers) const {
-    for (std::size_t g = 0; g < light.size(); ++g) answers.booked[number * light.size() + g] += light[g];
+    for (std::size_t g = 0; g < light.size(); ++g) answers.grouped[number * light.size() + g] += light[g];
   }
 
   // The part of the sky met that rays answer for, the rest is left to light sampling.

@@ -71,7 +71,7 @@ class Pilot {
     std::vector<Ray> batch;
     std::vector<GatherRay> about;
     for (std::uint32_t k = 0; k < kRays; ++k) {
-      const GatherSite site(texels_.site_for(texel, static_cast<int>(k % kHalves), k / kHalves));
+      const GatherSite site(texels_.sample_point(texel, static_cast<int>(k % kHalves), k / kHalves));
       batch.push_back(site.ray(Sampler(seed, texel, k).next2()));
       about.push_back({around_.weighs() ? site.incidence(batch.back().direction) : 0, kStreams + texel, k, true});
     }

@@ -24,7 +24,8 @@ struct Floor : Listed {
     graph = *find_neighbours(transport(), texels, context);
     for (std::size_t i = 0; i < texels.count(); ++i) {
       Vec3 centre(0);
-      for (const TexelSite& site : texels.site[i]) centre += site.origin / static_cast<float>(kSites);
+      for (const SamplePoint& point : texels.sample_points[i])
+        centre += point.origin / static_cast<float>(kSamplePoints);
       irradiance.push_back(light(centre));
     }
   }
@@ -35,8 +36,8 @@ TEST(CachedLight, LinearLightIsMetExactly) {
   Floor floor(light);
   const CachedLight cached = cache_light(floor.texels, floor.graph, floor.irradiance, floor.context);
   for (std::size_t i = 0; i < floor.texels.count(); ++i)
-    for (const TexelSite& site : floor.texels.site[i]) {
-      const Vec3 expected = light(site.origin) * (0.5f / kPi), found = cached.texels[i].at(site.origin);
+    for (const SamplePoint& point : floor.texels.sample_points[i]) {
+      const Vec3 expected = light(point.origin) * (0.5f / kPi), found = cached.texels[i].at(point.origin);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 2e-3f * expected[c]);
     }
 }
@@ -45,8 +46,8 @@ TEST(CachedLight, AStepBringsNoLightBelowZero) {
   Floor floor([](const Vec3& p) { return Vec3(p.x < 1 ? 0.0f : 1000.0f); });
   const CachedLight cached = cache_light(floor.texels, floor.graph, floor.irradiance, floor.context);
   for (std::size_t i = 0; i < floor.texels.count(); ++i)
-    for (const TexelSite& site : floor.texels.site[i]) {
-      const Vec3 found = cached.texels[i].at(site.origin);
+    for (const SamplePoint& point : floor.texels.sample_points[i]) {
+      const Vec3 found = cached.texels[i].at(point.origin);
       EXPECT_GE(found.g, 0);
       EXPECT_LE(found.g, 2 * 500 / kPi + 1e-3f);
       EXPECT_EQ(found.g == 0, floor.irradiance[i].g == 0);
@@ -59,7 +60,7 @@ TEST(CachedLight, LightBelowZeroIsMetAsNone) {
     Floor floor([&](const Vec3& p) { return Vec3(-1e-3f + (p.x < 1 ? 0 : step)); });
     const CachedLight cached = cache_light(floor.texels, floor.graph, floor.irradiance, floor.context);
     for (std::size_t i = 0; i < floor.texels.count(); ++i)
-      for (const TexelSite& site : floor.texels.site[i]) EXPECT_EQ(cached.texels[i].at(site.origin).g, 0);
+      for (const SamplePoint& point : floor.texels.sample_points[i]) EXPECT_EQ(cached.texels[i].at(point.origin).g, 0);
   }
 }
 

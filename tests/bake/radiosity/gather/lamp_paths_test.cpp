@@ -151,7 +151,8 @@ TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
       for (int h = 0; h < kHalves; ++h)
         for (std::size_t i = 0; i < dark.size(); ++i) sums.beside[h][i] = light.half(h, i);
     }
-    EXPECT_TRUE((FinalGather{listed.sites(transport), around, cached}.run(order, 512, {listed.context, &rays}, sums)));
+    EXPECT_TRUE(
+        (FinalGather{listed.sample_points(transport), around, cached}.run(order, 512, {listed.context, &rays}, sums)));
     double total = 0, beside = 0;
     for (std::size_t i = 0; i < dark.size(); ++i) {
       const double lit_m2 = listed.texels.area_m2[i] * listed.texels.visible[i];
@@ -185,7 +186,7 @@ TEST(LampPaths, FillABoxOfMetal) {
   ASSERT_TRUE(trace_lamps(listed.texels, around, 4096, context, light));
   std::vector<std::uint32_t> walls;
   for (std::uint32_t i = 0; i < listed.texels.count(); ++i)
-    if (max_component(glm::abs(listed.texels.site[i][0].origin)) > 0.9f * kRoom) walls.push_back(i);
+    if (max_component(glm::abs(listed.texels.sample_points[i][0].origin)) > 0.9f * kRoom) walls.push_back(i);
   const double straight = kLamp * kLamp / (kRoom * kRoom);
   EXPECT_NEAR(mean_of(listed, walls, light) / (kPi * kLuminance), 1 - straight, 0.1);
 }
