@@ -34,7 +34,7 @@ struct DirectSums {
     return halves;
   }
 
-  void take(std::size_t i, const DirectSums& from, std::size_t k) {
+  void copy(std::size_t i, const DirectSums& from, std::size_t k) {
     value[i] = from.value[k], difference[i] = from.difference[k];
     variance[i] = from.variance[k], uneven[i] = from.uneven[k];
     if (!from.moments.empty()) moments[i] = from.moments[k];

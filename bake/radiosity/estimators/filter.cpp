@@ -151,7 +151,7 @@ Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered) {
 std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context) {
   std::vector<Vec4> moments = sums.moments;
   for (std::size_t i = 0; i < moments.size(); ++i)
-    moments[i] = moments[i] / static_cast<float>(kHalves * std::max(1u, sums.samples[i])) + sums.beside_moments[i];
+    moments[i] = moments[i] / static_cast<float>(kHalves * std::max(1u, sums.samples[i])) + sums.additional_moments[i];
   return pooled(graph, std::move(moments), 1, context);
 }
 

@@ -33,9 +33,9 @@ GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const 
   return out;
 }
 
-double noise_of_hours(const Surroundings& around, std::span<const float> importance, const LightSums& sums) {
-  const Day& day = around.transport().accel.scene().day;
-  if (day.empty() || around.groups() == 0) return 1;
+double noise_of_hours(const CacheQuery& query, std::span<const float> importance, const LightSums& sums) {
+  const Day& day = query.transport().accel.scene().day;
+  if (day.empty() || query.groups() == 0) return 1;
   const auto gathered = sums.gathered.grouped_halves();
   struct Noise {
     double mean = 0, squares = 0;

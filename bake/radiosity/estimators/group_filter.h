@@ -30,6 +30,6 @@ GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const 
 // Hours of the scene's day are seen one at a time. How much noisier gathered light of theirs is than that of all,
 // relative to all that the hour or they have, by what the halves differ by before the filter: root mean squares over
 // texels by their share of frames, and over hours; 1 at least, and without a day.
-double noise_of_hours(const Surroundings& around, std::span<const float> importance, const LightSums& sums);
+double noise_of_hours(const CacheQuery& query, std::span<const float> importance, const LightSums& sums);
 
 }  // namespace oriel

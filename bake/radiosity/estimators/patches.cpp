@@ -27,11 +27,7 @@ constexpr std::uint32_t kOfMuch = 8;  // times as many rays for those that hand 
 class Solver {
  public:
   Solver(const SweepScene& scene, const SweepOptions& options)
-      : texels_(scene.texels),
-        around_(scene.around),
-        direct_(scene.direct),
-        grouped_(scene.grouped),
-        options_(options) {
+      : texels_(scene.texels), query_(scene.query), direct_(scene.direct), grouped_(scene.grouped), options_(options) {
     const Texels& texels = scene.texels;
     const TexelGraph& graph = scene.graph;
     patch_of_.assign(texels.count(), ~0u);
@@ -68,7 +64,7 @@ class Solver {
     UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kPatchesATask - 1) / kPatchesATask};
     loop.rays = static_cast<double>(kPatchesATask) * options_.rays_per_patch;
     loop.inputs = [&](std::size_t g, Archive& key) {
-      key(direct, options_.side, options_.rays_per_patch, g, around_.near(), around_.lamps(), texels_.eyes);
+      key(direct, options_.side, options_.rays_per_patch, g, query_.min_distance(), query_.lamps(), texels_.eyes);
       if (grouped_) key(grouped);
     };
     loop.compute = [&](std::size_t g) {
@@ -141,23 +137,23 @@ class Solver {
 
   std::uint64_t trace_sample(std::size_t first, std::size_t end, std::uint32_t k, std::uint64_t seed) {
     std::vector<Ray> batch;
-    std::vector<GatherRay> about;
+    std::vector<GatherRay> info;
     std::vector<std::size_t> asks;
     for (std::size_t p = first; p < end; ++p) {
       if (k >= patches_[p].rays) continue;
       asks.push_back(p);
       const std::uint32_t t = texel_for(patches_[p], k / kSamplePoints);
-      GatherRay& ray = about.emplace_back();
-      const GatherSite site(texels_.sample_point(t, static_cast<int>(k % kHalves), k / kHalves));
-      batch.push_back(site.ray(Sampler(seed, patches_[p].stream, k).next2()));
-      if (around_.weighs()) ray.incidence = site.incidence(batch.back().direction);
+      GatherRay& ray = info.emplace_back();
+      const GatherPoint point(texels_.sample_point(t, static_cast<int>(k % kHalves), k / kHalves));
+      batch.push_back(point.ray(Sampler(seed, patches_[p].stream, k).next2()));
+      if (query_.weighs()) ray.incidence = point.incidence(batch.back().direction);
       ray.stream = ~patches_[p].stream;
-      ray.near = patches_[p].follows_near;
+      ray.follows_near = patches_[p].follows_near;
       ray.sample = k;
     }
     if (batch.empty()) return 0;
-    Answers answers;
-    around_.answer(batch, about, answers);
+    QueryResults results;
+    query_.evaluate(batch, info, results);
     const auto link_to = [&](std::uint32_t ray, std::uint32_t texel, const Vec3& weight) {
       LightPatch& patch = patches_[asks[ray]];
       const float share = 1.0f / static_cast<float>(patch.rays);
@@ -169,15 +165,15 @@ class Solver {
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
       LightPatch& patch = patches_[asks[i]];
       const float share = kPi / static_cast<float>(patch.rays);
-      patch.source += DVec3(answers.light[i] * share);
+      patch.source += DVec3(results.light[i] * share);
       for (std::size_t g = 0; g < patch.grouped.size(); ++g)
-        patch.grouped[g] += DVec3(answers.grouped[i * around_.groups() + g] * share);
-      patch.unreflected += answers.unreflected[i] * share;
-      if (const std::uint32_t texel = answers.texel[i]; texel != kNoTexel)
-        link_to(i, texel, answers.share[i] * texels_.albedo[texel]);
+        patch.grouped[g] += DVec3(results.grouped[i * query_.groups() + g] * share);
+      patch.unreflected += results.unreflected[i] * share;
+      if (const std::uint32_t texel = results.texel[i]; texel != kNoTexel)
+        link_to(i, texel, results.share[i] * texels_.albedo[texel]);
     }
-    for (const Link& link : answers.links) link_to(link.ray, link.texel, link.weight);
-    return batch.size() + answers.rays;
+    for (const Link& link : results.links) link_to(link.ray, link.texel, link.weight);
+    return batch.size() + results.rays;
   }
 
   // A bound on the weight sum of a patch, whose expectation is the mean reflectance that its rays meet. The bound is
@@ -220,7 +216,7 @@ class Solver {
   void warn_of_no_end(Context& context, const Sweeps& result) const;
 
   const Texels& texels_;
-  const Surroundings& around_;
+  const CacheQuery& query_;
   std::span<const Vec3> direct_;
   const GroupedLight* grouped_;
   SweepOptions options_;
@@ -265,7 +261,7 @@ void Solver::warn_of_no_end(Context& context, const Sweeps& result) const {
 }
 
 Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
-  const int most = options_.most.value_or(around_.transport().options.max_bounces);
+  const int most = options_.most.value_or(query_.transport().options.max_bounces);
   std::vector<Vec3> next(patches_.size());
   solution_.resize(patches_.size());
   std::ranges::transform(patches_, solution_.begin(), &LightPatch::unreflected);
@@ -324,7 +320,7 @@ Status Solver::solve(Context& context, Sweeps& result) {
     end = run(context, bounded > 0, result);
   }
   if (end == End::kStopped) return fail(ErrorCode::kStopped, "radiosity", "stopped");
-  const int most = around_.transport().options.max_bounces;
+  const int most = query_.transport().options.max_bounces;
   if (!options_.most && result.count >= most && (result.growth >= 1 || result.tail > kEndless))
     warn_of_no_end(context, result);
   return {};

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "bake/radiosity/estimators/radiosity_options.h"
-#include "bake/radiosity/gather/gather_site.h"
-#include "bake/radiosity/gather/surroundings.h"
+#include "bake/radiosity/gather/cache_query.h"
+#include "bake/radiosity/gather/gather_point.h"
 #include "bake/radiosity/texels/grouped_light.h"
 #include "bake/radiosity/texels/neighbours.h"
 
@@ -55,7 +55,7 @@ struct Sweeps {
 struct SweepScene {
   const Texels& texels;
   const TexelGraph& graph;
-  const Surroundings& around;
+  const CacheQuery& query;
   std::span<const Vec3> direct;           // irradiance by texel that gather rays do not find (closed forms), lux
   const GroupedLight* grouped = nullptr;  // `direct` by group of lamps; null: nobody asks
 };

@@ -88,10 +88,10 @@ Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std
 
 // The filtered light of points by group; what is beside it is added.
 GroupedLight add_beside(const TexelLight& known, const Texels& points, std::uint32_t side, GroupedLight grouped) {
-  for (std::size_t i = 0; i < points.count() && !known.beside_grouped.empty(); ++i)
+  for (std::size_t i = 0; i < points.count() && !known.additional_grouped.empty(); ++i)
     for (std::size_t g = 0; g < grouped.groups; ++g)
       grouped.of(i)[g] += between_texels(known, points, i, side,
-                                         [&](std::uint32_t texel) { return known.beside_grouped.of(texel)[g]; });
+                                         [&](std::uint32_t texel) { return known.additional_grouped.of(texel)[g]; });
   return grouped;
 }
 
@@ -136,10 +136,10 @@ void assume_known(const TexelLight& known, const Texels& points, std::uint32_t s
     if (gathers[i] || points.visible[i] == 0) continue;
     for (std::size_t g = 0; g < groups; ++g)
       grouped.of(i)[g] = between_texels(known, points, i, side, [&](std::uint32_t texel) {
-        const Vec3 beside = known.beside_grouped.empty() ? Vec3(0) : known.beside_grouped.of(texel)[g];
+        const Vec3 beside = known.additional_grouped.empty() ? Vec3(0) : known.additional_grouped.of(texel)[g];
         return known.reflected_grouped.of(texel)[g] - beside;
       });
-    gathered.assume(i, known_reflected(known, points, i, side), 0, grouped);
+    gathered.set_assumed(i, known_reflected(known, points, i, side), 0, grouped);
   }
 }
 
@@ -167,15 +167,15 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   const ExtraSamplePoints sample_points(scene, texels, context.seed);
   const std::vector<std::uint32_t> order = coherent_order(texels);
   ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, task.paths));
-  DirectSums direct(n, false, known.around.groups());
+  DirectSums direct(n, false, known.query.groups());
   ORIEL_TRY_VOID(light_directly(task, {task.transport, texels, sample_points, context.seed}, order, graph, direct));
-  HalfSums gathered(n, false, known.around.groups());
+  HalfSums gathered(n, false, known.query.groups());
   Estimate indirect;
   const std::vector<char> which = which_gather(points, texels, gathers);
   assume_known(known, texels, points.side, which, gathered);
   std::vector<std::uint32_t> list = order;
   std::erase_if(list, [&](std::uint32_t i) { return !which[i]; });
-  const FinalGather final_gather{sample_points, known.around, known.cached};
+  const FinalGather final_gather{sample_points, known.query, known.cached};
   const std::uint32_t first = gathered_rays(task.options);
   for (std::uint32_t rays = first; rays <= kNoisyGather * first; rays *= kNoisyGather) {
     ORIEL_TRY_VOID(final_gather.run(list, rays, task.paths, gathered));

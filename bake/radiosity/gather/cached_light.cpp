@@ -11,7 +11,7 @@ Vec3 centre_of(const Texels& texels, std::size_t i) {
   return sum / static_cast<float>(kSamplePoints);
 }
 
-// The gradient along the surface that best tells the neighbours' light.
+// The least-squares gradient along the surface by the neighbours' light.
 void fit_slope(const TexelGraph& graph, const Vec3& normal, std::size_t i, std::span<const CachedTexel> all,
                CachedTexel& texel) {
   const Mat3 frame = frame_from_normal(normal);
@@ -24,21 +24,21 @@ void fit_slope(const TexelGraph& graph, const Vec3& normal, std::size_t i, std::
     xx += x * x, xy += x * y, yy += y * y;
     x_light += x * difference, y_light += y * difference;
   }
-  // Neighbours in one line leave the slope across it open: the least one is taken.
+  // The ridge picks the smallest slope where neighbours lie in one line.
   const double ridge = 1e-3 * (xx + yy);
   xx += ridge, yy += ridge;
   const double determinant = xx * yy - xy * xy;
   if (!(determinant > 0)) return;
   const DVec3 along_x = (yy * x_light - xy * y_light) / determinant,
               along_y = (xx * y_light - xy * x_light) / determinant;
-  // Over texels of no extent they are no numbers: then the light is even.
+  // Texels without extent give no finite slope: their light is constant.
   for (int c = 0; c < 3; ++c) {
     texel.slope[c] = static_cast<float>(along_x[c]) * frame[0] + static_cast<float>(along_y[c]) * frame[1];
     if (!is_finite(texel.slope[c])) texel.slope[c] = Vec3(0);
   }
 }
 
-// Shortens slopes until no site of the texel is below zero. An estimate may itself be below zero, where light is a
+// Shortens slopes until radiance is at least 0 at all sample points. An estimate may itself be negative, as a
 // difference of two: then it has no slope.
 void limit_slope(const Texels& texels, std::size_t i, CachedTexel& texel) {
   for (int c = 0; c < 3; ++c) {

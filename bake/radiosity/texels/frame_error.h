@@ -60,11 +60,11 @@ class FrameError {
  public:
   FrameError(std::span<const FramePixel> pixels, std::span<const TexelMapPage> map, const std::vector<bool>& has_light);
 
-  // By texel: its contribution to the mean square; the contributions sum to it. Errors of texels that a pixel reads
+  // Per texel: its contribution to the mean square; the contributions sum to it. Errors of texels that a pixel reads
   // together count as fully correlated, as filtered noise is. light: lux; variance: squared errors, lux².
   std::vector<float> squares(std::span<const Vec3> light, std::span<const Vec3> variance) const;
 
-  // By texel: the fraction of all frame pixels that it fills. The sum is 1, or 0 without pixels.
+  // Per texel: the fraction of all frame pixels that it fills. The sum is 1, or 0 without pixels.
   const std::vector<float>& importance() const { return importance_; }
 
  private:

@@ -34,7 +34,7 @@ inline constexpr int kSamplePointsPerHalf = 4;
 inline constexpr int kSamplePoints = kHalves * kSamplePointsPerHalf;
 
 struct Texels {
-  // By texel.
+  // Arrays by texel.
   std::vector<std::uint32_t> page, index;  // into the texel map: page, and TexelMapPage::texel[index]
   std::vector<std::uint32_t> x, y;         // on the page
   std::vector<std::uint32_t> chart;        // of Atlas

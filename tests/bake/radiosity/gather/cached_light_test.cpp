@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bake/radiosity/gather/surroundings.h"
+#include "bake/radiosity/gather/cache_query.h"
 #include "tests/bake/radiosity/listed.h"
 
 namespace oriel::test {
@@ -66,20 +66,20 @@ TEST(CachedLight, LightBelowZeroIsMetAsNone) {
 
 // A ray that meets a floor of 10 cm texels from 25 cm above: far from two texels, near to four, and then followed to
 // where it sees the sky.
-TEST(Surroundings, NearIsFollowedSoManySides) {
+TEST(CacheQuery, NearIsFollowedSoManySides) {
   Listed listed(plain_floor(), 0.1f);
   listed.scene.sky = Vec3(2);
   listed.accel.emplace(*Accel::build(listed.scene));
   const Transport transport = listed.transport();
-  Surroundings around(transport, listed.texels, true, 1);
+  CacheQuery query(transport, listed.texels, true, 1);
   const std::array ray{Ray{{1.02f, 0.25f, 1.03f}, {0, -1, 0}}};
-  const std::array about{GatherRay{.incidence = 1, .near = true}};
+  const std::array info{GatherRay{.incidence = 1, .follows_near = true}};
   for (const float sides : {2.0f, 4.0f}) {
-    around.set_near(sides);
-    Answers answers;
-    around.answer(ray, about, answers);
-    EXPECT_EQ(answers.texel[0] == kNoTexel, sides > 2.5f) << sides;
-    EXPECT_FLOAT_EQ(answers.light[0].g, sides > 2.5f ? 2 * 0.5f : 0) << "the sky on an albedo of a half";
+    query.set_min_distance(sides);
+    QueryResults results;
+    query.evaluate(ray, info, results);
+    EXPECT_EQ(results.texel[0] == kNoTexel, sides > 2.5f) << sides;
+    EXPECT_FLOAT_EQ(results.light[0].g, sides > 2.5f ? 2 * 0.5f : 0) << "the sky on an albedo of a half";
   }
 }
 

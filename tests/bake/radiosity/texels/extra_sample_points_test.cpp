@@ -118,13 +118,13 @@ TEST(ExtraSamplePoints, AreDrawnWhereRaysAreMany) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     Listed listed(under_a_hole(), 1, seed);
     const Transport transport = listed.transport();
-    const Surroundings around(transport, listed.texels, true, seed);
+    const CacheQuery query(transport, listed.texels, true, seed);
     const std::size_t n = listed.texels.count();
     const std::vector<Vec3> dark(n);
     const CachedLight cached{dark, std::vector<CachedTexel>(n)};
     HalfSums sums(n, false);
     ASSERT_TRUE(
-        (FinalGather{listed.sample_points(transport), around, cached}.run(listed.floor, kRays, listed.context, sums)));
+        (FinalGather{listed.sample_points(transport), query, cached}.run(listed.floor, kRays, listed.context, sums)));
     double light = 0, area = 0;
     for (const std::uint32_t i : listed.floor) {
       ASSERT_FALSE(listed.texels.occlusion_heavy[i]);
