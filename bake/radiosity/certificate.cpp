@@ -63,7 +63,7 @@ std::vector<HeldOut> hold_out(std::span<const TexelMapPage> map, std::span<const
   std::vector<HeldOut> chosen;
   for (std::size_t i = 0; i < pixels.size() && chosen.size() < kMostPixels; ++i) {
     const FramePixel& p = pixels[i];
-    HeldOut h{&p, i, 0, shown(p, read_light(pages, p)) + DVec3(p.emitted), floors2[p.eye]};
+    HeldOut h{&p, i, 0, shown(p, read_light(pages, p)) + DVec3(p.emitted), floors2[p.view]};
     if (what == Ask::kTexels) {
       const std::uint32_t most =
           p.texel[static_cast<std::size_t>(std::max_element(p.share.begin(), p.share.end()) - p.share.begin())];
@@ -82,7 +82,7 @@ class Verifier {
   Verifier(const LightmapScene& scene, const Question& question, Context& context)
       : t_(scene.transport), question_(question), asked2_(question.error * question.error), context_(context) {
     of_texels_.reserve(seeds_.size());
-    for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k] = mix64(context.seed + seeds::kCertificate + k);
+    for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k] = mix64(context.seed + seeds::kHeldOutPaths + k);
     for (const std::uint64_t seed : seeds_) of_texels_.emplace_back(scene, question.eyes, false, seed, context);
   }
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "bake/jobs/units.h"
-#include "bake/trace/onlookers.h"
+#include "bake/trace/view_samples.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
 
@@ -141,7 +141,7 @@ struct SideLight {
     sum += light;
     max = std::max(max, light);
   }
-  bool lit_beside(const SideLight& other, std::size_t points) const {
+  bool is_lit_against(const SideLight& other, std::size_t points) const {
     return max > kLit * other.sum / static_cast<double>(points);
   }
 };
@@ -149,13 +149,13 @@ struct SideLight {
 // How sides are told apart.
 struct SideProbe {
   const Transport& transport;
-  const Onlookers& onlookers;
+  const ViewSamples& views;
   std::size_t points = 0;  // of each part
   std::uint64_t seed = 0;
 };
 
 LitSides lit_sides(const SideProbe& probe, std::span<const std::uint32_t> part, std::uint64_t& rays) {
-  const auto& [t, onlookers, points, seed] = probe;
+  const auto& [t, views, points, seed] = probe;
   const Scene& scene = t.accel.scene();
   std::vector<double> area_until;
   double total = 0;
@@ -172,25 +172,25 @@ LitSides lit_sides(const SideProbe& probe, std::span<const std::uint32_t> part, 
       Sampler own = sampler;
       const IrradianceSample e = sample_irradiance(t, point, own, rays);
       side->add(luminance(e.direct + e.indirect));
-      if (side->seen || !onlookers.any()) continue;
-      Onlookers::Nearest nearest;
+      if (side->seen || !views.any()) continue;
+      ViewSamples::Nearest nearest;
       const Vec3& normal = point.geometric_normal;
-      side->seen = onlookers.in_sight(spawn_origin(point, normal), normal, nearest, rays);
+      side->seen = views.in_sight(spawn_origin(point, normal), normal, nearest, rays);
     }
     // Most double-sided things in the light show it at once: what is found to be lit stays so however many points
     // follow.
-    if (k + 1 >= kFirstPoints && std::has_single_bit(k + 1) && front.lit_beside(back, k + 1) &&
-        back.lit_beside(front, k + 1))
+    if (k + 1 >= kFirstPoints && std::has_single_bit(k + 1) && front.is_lit_against(back, k + 1) &&
+        back.is_lit_against(front, k + 1))
       return LitSides::kBoth;
   }
-  if (!back.seen && !back.lit_beside(front, points)) return LitSides::kFront;
-  return front.seen || front.lit_beside(back, points) ? LitSides::kBoth : LitSides::kBack;
+  if (!back.seen && !back.is_lit_against(front, points)) return LitSides::kFront;
+  return front.seen || front.is_lit_against(back, points) ? LitSides::kBoth : LitSides::kBack;
 }
 
 }  // namespace
 
 Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Vec3> eyes, Context& context) {
-  const Onlookers onlookers(transport, eyes);
+  const ViewSamples views(transport, eyes);
   const Hash128 where = context.units ? hash_of(std::vector<Vec3>(eyes.begin(), eyes.end())) : Hash128();
   const Parts parts = in_patches(transport.accel.scene(), find_parts(transport.accel.scene()));
   const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kFewPoints, kPoints);
@@ -202,7 +202,7 @@ Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Ve
   loop.inputs = [&](std::size_t i, Archive& key) { key(i, where); };
   loop.compute = [&](std::size_t i) {
     std::uint64_t traced = 0;
-    of_part[i] = lit_sides({short_paths, onlookers, points, context.seed}, parts.of(i), traced);
+    of_part[i] = lit_sides({short_paths, views, points, context.seed}, parts.of(i), traced);
     return traced;
   };
   loop.results = [&](std::size_t i, Archive& archive) { archive(of_part[i]); };

@@ -112,7 +112,7 @@ class ParticleTracer {
         sharp_ = is_sharp;
       }
     } else if (sample->lobe == Lobe::kRefraction) {
-      power_ *= sample->weight / sample->squeeze;
+      power_ *= sample->weight / sample->radiance_scale;
       ray_.direction = shading.world(*sample);
       ++bounces_;
       passes_ = 0;

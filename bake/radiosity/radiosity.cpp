@@ -23,9 +23,9 @@
 namespace oriel {
 namespace {
 
-constexpr double kStitchShare = 0.6;       // of the error asked for: what stitching may move texels by
-constexpr std::size_t kPixels = 1 << 16;   // that the error is told from, and as many others held out
-constexpr std::uint32_t kOpenEyes = 1024;  // where none is given
+constexpr double kStitchShare = 0.6;           // of the error asked for: what stitching may move texels by
+constexpr std::size_t kPixels = 1 << 16;       // that the error is told from, and as many others held out
+constexpr std::uint32_t kDefaultViews = 1024;  // where none is given
 
 constexpr double kMeets = 0.05;  // of the light of two sides of a seam, half their difference
 
@@ -141,11 +141,11 @@ Result<std::vector<FramePixel>> pixels_of(const LightmapScene& scene, std::vecto
                                           Context& context) {
   for (;; eyes.clear()) {
     const bool given = !eyes.empty();
-    if (!given) eyes = eyes_in_the_open(scene.transport, kOpenEyes, seed);
+    if (!given) eyes = sample_view_positions(scene.transport, kDefaultViews, seed);
     if (eyes.empty()) return std::vector<FramePixel>();
-    const auto per_eye = static_cast<std::uint32_t>(std::max<std::size_t>(1, kPixels / eyes.size()));
+    const auto directions_per_view = static_cast<std::uint32_t>(std::max<std::size_t>(1, kPixels / eyes.size()));
     ORIEL_TRY(std::vector<FramePixel> pixels,
-              find_frame_pixels(scene.transport, scene.atlas, {eyes, per_eye}, mix64(seed), context));
+              find_frame_pixels(scene.transport, scene.atlas, {eyes, directions_per_view}, mix64(seed), context));
     if (!given || !pixels.empty()) return pixels;
   }
 }
@@ -198,9 +198,9 @@ void write_groups(const RadiosityTask& task, const LightEstimator& estimator, Ra
 }
 
 // What groups share in what was stitched, clamped and added between texels.
-void share_out_light(Radiosity& light) {
+void rescale_light_groups(Radiosity& light) {
   for (std::size_t p = 0; p < light.pages.size() && !light.groups.empty(); ++p)
-    share_out_page(light.pages[p], p, light.groups);
+    rescale_page_groups(light.pages[p], p, light.groups);
 }
 
 // Where there is no time for it, texels have to do.
@@ -314,11 +314,11 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
     estimator->write(light);
     write_groups(task, *estimator, light);
     ORIEL_TRY_VOID(fill_and_stitch(task, light));
-    share_out_light(light);
+    rescale_light_groups(light);
     ORIEL_TRY_VOID(add_detail_in_time(task, *estimator, light));
     for (std::size_t p = 0; p < light.pages.size() && groups_lead(task, light); ++p)
       add_up_groups(&LightmapPage::detail, p, light);
-    share_out_light(light);
+    rescale_light_groups(light);
     summarize(task, light);
     std::vector<FramePixel> held_out;
     ORIEL_TRY(light.report.certificate, verify(task, light, held_out));

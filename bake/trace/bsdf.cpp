@@ -82,9 +82,9 @@ DVec3 Bsdf::facet(const Vec2& v) const {
 std::optional<BsdfSample> Bsdf::refract_at(const DVec3& h, const Vec3& weight) const {
   const auto wi = refract_about(DVec3(wo_), h, point_.eta);
   if (!wi || !(wi->z != 0)) return std::nullopt;
-  const float squeeze = 1 / (point_.eta * point_.eta);
-  BsdfSample s = delta_sample(Lobe::kRefraction, Vec3(wi->x, wi->y, -std::abs(wi->z)), weight * squeeze);
-  s.squeeze = squeeze;
+  const float radiance_scale = 1 / (point_.eta * point_.eta);
+  BsdfSample s = delta_sample(Lobe::kRefraction, Vec3(wi->x, wi->y, -std::abs(wi->z)), weight * radiance_scale);
+  s.radiance_scale = radiance_scale;
   return s;
 }
 

@@ -14,10 +14,10 @@ enum class Lobe : std::uint8_t { kDiffuse, kSpecular, kTransmission, kRefraction
 
 struct BsdfSample {
   Vec3 wi{0, 0, 1};
-  Vec3 weight{0};      // f * |cos θi| / pdf, lobe choice included
-  float pdf = 0;       // per steradian of all lobes together; 0 where delta
-  bool delta = false;  // no other strategy finds the direction
-  float squeeze = 1;   // in `weight`, of refracted light: radiance is n² times as dense in glass, power is not
+  Vec3 weight{0};            // f * |cos θi| / pdf, lobe choice included
+  float pdf = 0;             // per steradian of all lobes together; 0 where delta
+  bool delta = false;        // no other strategy finds the direction
+  float radiance_scale = 1;  // 1/η² in `weight` by refraction, which scales radiance but not power
   Lobe lobe = Lobe::kDiffuse;
 };
 

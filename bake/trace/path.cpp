@@ -34,7 +34,7 @@ class PathTracer {
     mirrored_ = mirrored_ && !(is_frosted(surface.shade) && (refracted || surface.shade.inside));
     spread_ = spread_ && sample.lobe == Lobe::kTransmission;  // what a mirror shows glows on its own
     medium_.leave(surface.shade, refracted);
-    squeeze_ *= sample.squeeze;
+    radiance_scale_ *= sample.radiance_scale;
   }
 
   PathLight follow(const Ray& ray, float bsdf_pdf, int bounce, const Vec3& throughput) {
@@ -65,7 +65,7 @@ class PathTracer {
         const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(ray.direction)) : 1.0f;
         const Vec3 sky = throughput_ * sky_radiance(t_.accel.scene(), ray.direction) * weight;
         (first ? light.sky : light.scattered) += sky;
-        book(t_, first ? LightBook::kSky : LightBook::kScattered, sky_owner(t_.accel.scene()), ray.direction, sky);
+        record(t_, first ? PathGroups::kSky : PathGroups::kScattered, sky_owner(t_.accel.scene()), ray.direction, sky);
         if (t_.listener) t_.listener->add("sky", sky);
         break;
       }
@@ -88,11 +88,11 @@ class PathTracer {
         const bool lamp = mirrored_ && t_.lights.samples(hit.triangle);
         const Vec3 emission = throughput_ * surface.shade.emission * weight;
         (first ? light.emitted : lamp ? light.lamps : light.scattered) += emission;
-        if (t_.book)
-          t_.book->add(first  ? LightBook::kEmitted
-                       : lamp ? LightBook::kLamps
-                              : LightBook::kScattered,
-                       t_.accel.scene().light_group(hit.triangle), emission);
+        if (t_.grouped)
+          t_.grouped->add(first  ? PathGroups::kEmitted
+                          : lamp ? PathGroups::kLamps
+                                 : PathGroups::kScattered,
+                          t_.accel.scene().light_group(hit.triangle), emission);
         if (t_.listener) t_.listener->add("emission", emission);
       }
       if (!surface.reflects) {
@@ -117,7 +117,7 @@ class PathTracer {
   // Lobes are sampled a little less often than they reflect: in a box of metal, where light dies out after hundreds of
   // bounces, few paths would bring it all. One that weighs as much as several goes on as so many.
   void split(const Ray& ray, int bounce, PathLight& light) {
-    const float weight = max_component(throughput_) / squeeze_;
+    const float weight = max_component(throughput_) / radiance_scale_;
     if (!(weight >= 2) || !is_usable(throughput_)) return;
     const int paths = static_cast<int>(std::min(weight, kMostPaths));
     throughput_ /= static_cast<float>(paths);
@@ -157,8 +157,8 @@ class PathTracer {
     const Shading shading(surface, -ray.direction);
     const FromEmitter from = sample_lights_bsdf({t_, sampler_, rays_}, surface, shading);
     (mirrored_ && from.lamp ? light.lamps : light.scattered) += throughput_ * from.light;
-    book(t_, mirrored_ && from.lamp ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction,
-         throughput_ * from.light);
+    record(t_, mirrored_ && from.lamp ? PathGroups::kLamps : PathGroups::kScattered, from.group, from.direction,
+           throughput_ * from.light);
     if (t_.listener) t_.listener->add("lamps", throughput_ * from.light);
     add_mirrored(surface, shading, bounce, light);
     const float u = sampler_.next1();
@@ -203,20 +203,20 @@ class PathTracer {
         [&](const Vec3& wi) { return shading.eval(wi); },
         [&](const Vec3&, std::uint32_t group, const Vec3& from) {
           light.scattered += throughput_ * from;
-          if (t_.book) t_.book->add(LightBook::kScattered, group, throughput_ * from);
+          if (t_.grouped) t_.grouped->add(PathGroups::kScattered, group, throughput_ * from);
           if (t_.listener) t_.listener->add("mirrored lamps", throughput_ * from);
         });
     sample_frosted(
         {t_, sampler_, rays_}, surface, [&](const Vec3& wi) { return shading.eval(wi); },
         [&](const Vec3&, std::uint32_t group, const Vec3& from) {
           light.scattered += throughput_ * from;
-          if (t_.book) t_.book->add(LightBook::kScattered, group, throughput_ * from);
+          if (t_.grouped) t_.grouped->add(PathGroups::kScattered, group, throughput_ * from);
           if (t_.listener) t_.listener->add("frosted lamps", throughput_ * from);
         });
   }
 
   bool survive() {
-    const float q = std::min(1.0f, max_component(throughput_) / squeeze_);
+    const float q = std::min(1.0f, max_component(throughput_) / radiance_scale_);
     if (sampler_.next1() >= q) return false;
     throughput_ /= q;
     return true;
@@ -233,7 +233,7 @@ class PathTracer {
   Vec3 from_{0};   // last vertex that chose a direction
   float pdf_ = 0;  // with this density
   Medium medium_;
-  float squeeze_ = 1;  // in throughput_: BsdfSample::squeeze
+  float radiance_scale_ = 1;  // in throughput_: BsdfSample::radiance_scale
 };
 
 // Light from lamps and by one sampled lobe; on_diffuse: may be null.
@@ -246,20 +246,20 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
   const Shading shading(surface, wo);
   const FromEmitter from = sample_lights_bsdf(by, surface, shading);
   (on_diffuse && from.lamp ? light.lamps : light.scattered) += from.light;
-  book(t, from.lamp ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction, from.light);
+  record(t, from.lamp ? PathGroups::kLamps : PathGroups::kScattered, from.group, from.direction, from.light);
   if (t.listener) t.listener->add("lamps", from.light);
   sample_mirrored(
       by, surface, t.options.max_bounces - 1, [&](const Vec3& wi) { return shading.eval(wi); },
       [&](const Vec3&, std::uint32_t group, const Vec3& mirrored) {
         light.scattered += mirrored;
-        if (t.book) t.book->add(LightBook::kScattered, group, mirrored);
+        if (t.grouped) t.grouped->add(PathGroups::kScattered, group, mirrored);
         if (t.listener) t.listener->add("mirrored lamps", mirrored);
       });
   sample_frosted(
       by, surface, [&](const Vec3& wi) { return shading.eval(wi); },
       [&](const Vec3&, std::uint32_t group, const Vec3& frosted) {
         light.scattered += frosted;
-        if (t.book) t.book->add(LightBook::kScattered, group, frosted);
+        if (t.grouped) t.grouped->add(PathGroups::kScattered, group, frosted);
         if (t.listener) t.listener->add("frosted lamps", frosted);
       });
   const float u = sampler.next1();

@@ -21,7 +21,7 @@ struct PathOptions {
   bool frosted_panes = false;  // rough thin panes spread what eyes see through them, straight or in mirrors
 };
 
-class LightBook;
+class PathGroups;
 class PathListener;
 
 // What a path needs to know of the scene.
@@ -30,7 +30,7 @@ struct Transport {
   const LightSet& lights;
   PathOptions options;
   PathListener* listener = nullptr;  // of few paths, by one thread; null: nobody listens
-  LightBook* book = nullptr;         // by one thread; null: nobody asks whose light it is
+  PathGroups* grouped = nullptr;     // filled by one thread; null: light by group is not wanted
 };
 
 // A surface as a path meets it.
@@ -71,13 +71,13 @@ class PathListener {
   virtual void add(const char* from, const Vec3& light) = 0;
 };
 
-// Adds up the light of paths that leave diffuse reflection to their caller (trace_to_diffuse, specular_light), by group
-// of lamps (Scene::light_groups).
-class LightBook {
+// Light of paths by light group (Scene::light_groups), one AOV a group. Paths that leave diffuse reflection to their
+// caller fill it (trace_to_diffuse, specular_light).
+class PathGroups {
  public:
   enum Kind { kEmitted, kSky, kScattered, kLamps };  // as PathLight's members
 
-  // Of what follows each kind counts so many times.
+  // Clears the sums. weight: by Kind, a factor of the light that follows.
   void begin(std::size_t groups, const std::array<float, 4>& weight) {
     light_.assign(groups, Vec3(0));
     weight_ = weight;

@@ -52,11 +52,11 @@ FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const 
   return {value * t.accel.transmittance(ray), lamp, light.group, light.direction};
 }
 
-inline void book(const Transport& t, LightBook::Kind kind, std::uint32_t group, const Vec3& direction,
-                 const Vec3& light) {
-  if (!t.book) return;
+inline void record(const Transport& t, PathGroups::Kind kind, std::uint32_t group, const Vec3& direction,
+                   const Vec3& light) {
+  if (!t.grouped) return;
   each_owner(t.accel.scene(), group, direction, light,
-             [&](std::uint32_t owner, const Vec3& part) { t.book->add(kind, owner, part); });
+             [&](std::uint32_t owner, const Vec3& part) { t.grouped->add(kind, owner, part); });
 }
 
 // What a frosted pane's facets send towards wo of one point, spot or sun behind it, as shading.spread() would have it;

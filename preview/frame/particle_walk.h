@@ -47,7 +47,7 @@ class ParticleWalk {
     const float u = sampler_.next1();
     const auto sample = shading.sample(u, sampler_.next2());
     if (!sample || !(max_component(sample->weight) > 0)) return std::nullopt;
-    power_ *= sample->weight / sample->squeeze;
+    power_ *= sample->weight / sample->radiance_scale;
     const bool straight = sample->lobe == Lobe::kTransmission;
     if (!straight) ray_.direction = shading.world(*sample);
     ray_.origin = spawn_origin(s, ray_.direction);

@@ -24,7 +24,7 @@ std::vector<Ray> rays_of(const Texels& texels, std::span<const std::uint32_t> or
   for (std::size_t g = 0; g < order.size(); g += kGroup)
     for (std::uint32_t k = 0; k < 2 * kPerHalf; ++k)
       for (const std::uint32_t t : order.subspan(g, std::min(kGroup, order.size() - g)))
-        rays.push_back(GatherSite(texels.site_for(t, 0, k)).ray(net.point(k, net.shift(t))));
+        rays.push_back(GatherPoint(texels.sample_point(t, 0, k)).ray(net.point(k, net.shift(t))));
   return rays;
 }
 
@@ -81,8 +81,8 @@ int bench(const char* file) {
   std::vector<std::uint32_t> order;
   for (const std::uint32_t t : coherent_order(*texels))
     if (texels->visible[t] > 0) order.push_back(t);
-  const Surroundings around(transport, *texels, true, 1);
-  const MoreSites sites({transport, *atlas, *map}, *texels, context.seed);
+  const CacheQuery query(transport, *texels, true, 1);
+  const ExtraSamplePoints sample_points({transport, *atlas, *map}, *texels, context.seed);
   const std::vector<Vec3> irradiance(texels->count(), Vec3(1));
   const CachedLight cached = cache_light(*texels, *graph, irradiance, context);
   for (int round = 0; round < 3; ++round) {
@@ -91,7 +91,7 @@ int bench(const char* file) {
     HalfSums sums(texels->count(), false);
     rays = 0;
     const auto start = std::chrono::steady_clock::now();
-    if (!FinalGather{sites, around, cached}.run(order, kPerHalf, {context, &rays}, sums)) return 4;
+    if (!FinalGather{sample_points, query, cached}.run(order, kPerHalf, {context, &rays}, sums)) return 4;
     const double seconds = seconds_since(start), count = static_cast<double>(order.size()) * 2 * kPerHalf * 1e-6;
     std::printf(
         "%s: %.1f Mray, one by one %.2f Mray/s, in the gather's order %.2f Mray/s (%.1f times), the gather %.2f Mray/s "

@@ -41,20 +41,20 @@ class CachedEstimator : public LightEstimator {
         context_(task.context),
         texels_(std::move(texels)),
         order_(coherent_order(texels_)),
-        sites_(task, texels_, task.context.seed),
-        direct_light_(task.transport, texels_, sites_, task.context.seed),
-        around_(task.transport, texels_, direct_light_.closed_form(), task.context.seed),
-        direct_(texels_.count(), options_.directional, around_.groups()),
-        gathered_(texels_.count(), options_.directional, around_.groups()),
-        lamps_(texels_.count(), options_.directional, around_.groups()),
+        sample_points_(task, texels_, task.context.seed),
+        direct_light_(task.transport, texels_, sample_points_, task.context.seed),
+        query_(task.transport, texels_, direct_light_.closed_form(), task.context.seed),
+        direct_(texels_.count(), options_.directional, query_.groups()),
+        gathered_(texels_.count(), options_.directional, query_.groups()),
+        lamps_(texels_.count(), options_.directional, query_.groups()),
         keep_beside_(texels_.count()),
         frames_(task.pixels, task.map, texels_.has_light()),
         most_rays_(options_) {}
 
   Status refine(const Goal& goal) override {
-    if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
+    if (importance_.empty()) ORIEL_TRY_VOID(begin(goal));
     if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
-    ORIEL_TRY_VOID(refine_to(goal.error / noise_of_hours(around_, shares_, {direct_, gathered_})));
+    ORIEL_TRY_VOID(refine_to(goal.error / noise_of_hours(query_, importance_, {direct_, gathered_})));
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
     if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
     return {};
@@ -73,25 +73,25 @@ class CachedEstimator : public LightEstimator {
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
-    write_booked(texels_, filter_groups(texels_, graph_, {direct_, gathered_}, options_.filter, context_), groups);
+    write_grouped(texels_, filter_groups(texels_, graph_, {direct_, gathered_}, options_.filter, context_), groups);
     return true;
   }
 
   std::optional<TexelLight> texel_light() const override {
-    auto [beside, booked] = smooth_beside(lamps_, texels_, graph_, gathered_, context_);
-    const GroupHalves gathered{gathered_.booked_halves(), false};
-    BookedLight reflected = filter_groups(texels_, graph_, gathered, options_.filter, context_);
-    return TexelLight{texels_, around_, cached_, std::move(beside), std::move(booked), estimate_, std::move(reflected),
-                      shares_};
+    auto [beside, grouped] = smooth_beside(lamps_, texels_, graph_, gathered_, context_);
+    const GroupHalves gathered{gathered_.grouped_halves(), false};
+    GroupedLight reflected = filter_groups(texels_, graph_, gathered, options_.filter, context_);
+    return TexelLight{
+        texels_, query_, cached_, std::move(beside), std::move(grouped), estimate_, std::move(reflected), importance_};
   }
 
  private:
   // Direct light, its bounces on coarse patches, and the first rays that gather these.
   Status begin(const Goal& goal) {
-    ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, task_.paths));
+    ORIEL_TRY(graph_, find_neighbours(query_.transport(), texels_, task_.paths));
     beside_ = with_chart_neighbours(graph_, texels_);
-    shares_ = typical_errors(beside_, frames_.shares(), context_);
-    little_seen_ = little_seen(order_, shares_, kLittleSeen * goal.error * goal.error);
+    importance_ = typical_errors(beside_, frames_.importance(), context_);
+    little_seen_ = little_seen(order_, importance_, kLittleSeen * goal.error * goal.error);
     recall();
     ORIEL_TRY_VOID(first_direct());
     // Bakes that count bounces leave it to the rays, which do.
@@ -100,18 +100,18 @@ class CachedEstimator : public LightEstimator {
     irradiance_ = coarse_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
     const SweepOptions how = sweep_options(options_, goal.error, texels_.count());
-    const BookedLight* booked = around_.groups() > 0 ? &booked_ : nullptr;
-    if (booked) booked_ = direct_.booked;
-    for (int h = 0; booked && h < kHalves; ++h) booked_.add(gathered_.beside_booked[h], 0.5f);
-    ORIEL_TRY(sweeps_, sweep({texels_, graph_, around_, irradiance_, booked}, how, task_.paths));
+    const GroupedLight* grouped = query_.groups() > 0 ? &grouped_ : nullptr;
+    if (grouped) grouped_ = direct_.grouped;
+    for (int h = 0; grouped && h < kHalves; ++h) grouped_.add(gathered_.additional_grouped[h], 0.5f);
+    ORIEL_TRY(sweeps_, sweep({texels_, graph_, query_, irradiance_, grouped}, how, task_.paths));
     for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
       irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
-    if (booked) booked_.add(sweeps_.booked), cached_.booked = booked;
-    bright_ = BrightTexels(around_, {texels_, sites_, cached_, sweeps_.gathered, shares_}, context_.seed);
+    if (grouped) grouped_.add(sweeps_.grouped), cached_.grouped = grouped;
+    bright_ = BrightTexels(query_, {texels_, sample_points_, cached_, sweeps_.gathered, importance_}, context_.seed);
     if (!bright_.empty()) cached_.bright = &bright_;
     take_known();
-    ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, around_, order_, cached_, task_.paths); }));
+    ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, query_, order_, cached_, task_.paths); }));
     ORIEL_TRY_VOID(first_gather());
     first_work_ = task_.work(), first_rays_ = task_.paths.traced() + task_.quick.traced();
     return {};
@@ -119,31 +119,31 @@ class CachedEstimator : public LightEstimator {
 
   // Where time ends meanwhile, those that came count; without any, rays look for that light.
   Status follow_lamps(std::uint64_t per_half, LampLight& lamps, HalfSums& sums) {
-    ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, around_, per_half, task_.paths, lamps); }));
+    ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, query_, per_half, task_.paths, lamps); }));
     if (lamps.particles == 0) return {};
     put_beside(lamps, keep_beside_, sums);
-    around_.leave_out_lamps();
+    query_.leave_out_lamps();
     return {};
   }
 
   void remember() {
     KnownLight known = known_now_;
     known.page = texels_.page, known.x = texels_.x, known.y = texels_.y, known.chart = texels_.chart;
-    known.near = around_.near(), known.lamps = lamps_.particles > 0;
+    known.near = query_.min_distance(), known.lamps = lamps_.particles > 0;
     known.coarse = coarse_, known.direct = direct_, known.gathered = gathered_;
     remember_light(context_, known_name_, std::move(known));
   }
 
   // Something is close to it, and people look there.
-  bool is_crowded(std::size_t i) const { return texels_.has_many[i] && !little_seen_[i]; }
+  bool is_crowded(std::size_t i) const { return texels_.occlusion_heavy[i] && !little_seen_[i]; }
 
   void recall() {
-    known_name_ = name_of_known_light(around_.transport().accel.scene(), texels_, options_, around_.transport().options,
+    known_name_ = name_of_known_light(query_.transport().accel.scene(), texels_, options_, query_.transport().options,
                                       context_.seed);
     // With one bounce nothing is known of gathered light before the gather.
-    if (options_.reuse_error <= 0 || options_.bounces == 1 || around_.groups() > 0) return;
+    if (options_.reuse_error <= 0 || options_.bounces == 1 || query_.groups() > 0) return;
     if (auto known = recall_light(context_, known_name_, options_.directional)) {
-      around_.set_near(known->near);  // what paths found in its light, particles must not bring
+      query_.set_min_distance(known->near);  // what paths found in its light, particles must not bring
       reuse_.emplace(texels_, std::move(*known));
     }
   }
@@ -161,8 +161,7 @@ class CachedEstimator : public LightEstimator {
     return list;
   }
 
-  // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
-  // though the few samples met none.
+  // Takes a few samples everywhere, then more where a neighbour's visibility differs: a shadow edge is near.
   Status first_direct() {
     // Closed forms do not tell where light comes from, samples do; few of those that are not aimed meet it at all.
     const bool few_tell = options_.directional || direct_light_.samples_lights();
@@ -236,7 +235,7 @@ class CachedEstimator : public LightEstimator {
 
   // Measured over texels that are baked: what others keep is not theirs to make up for.
   Part part(Part part) const {
-    part.measure(not_kept(), frames_.shares());
+    part.measure(not_kept(), frames_.importance());
     return part;
   }
 
@@ -256,7 +255,7 @@ class CachedEstimator : public LightEstimator {
     ORIEL_TRY_VOID(gather_list(per_half));
     for (const std::uint32_t i : list)
       if (gathered_.samples[i] == 0 && texels_.visible[i] > 0)
-        gathered_.assume(i, irradiance_[i] - direct_.value[i] - gathered_.mean(i), kCoarseError, sweeps_.booked);
+        gathered_.set_assumed(i, irradiance_[i] - direct_.value[i] - gathered_.mean(i), kCoarseError, sweeps_.grouped);
     std::erase_if(list, [&](std::uint32_t i) { return !is_crowded(i); });
     if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half && !ended_early_)
       ORIEL_TRY_VOID(gather_list(more));
@@ -271,9 +270,8 @@ class CachedEstimator : public LightEstimator {
     return {};
   }
 
-  // More samples where they take most of the error away for what they cost, direct light's or the gather's. What texels
-  // that have all their samples add may miss the goal alone: others cannot make up for it, and are refined to the goal
-  // among themselves.
+  // Refines direct or gathered light, whichever reduces the error more for its cost. Texels with all their samples may
+  // miss the goal by themselves: the others are then refined to the goal without them.
   Status refine_to(double error) {
     update_direct();
     if (error <= 0) return {};
@@ -291,7 +289,7 @@ class CachedEstimator : public LightEstimator {
       context_.foretell("refinement", left.done(refined(), now));
       if (now <= goal && (direct.mean + gathered.mean <= goal || !most_rays_.raise())) return {};
       if ((ended_early_ = done()) || (out_of_rays_ = out_of_rays())) return {};
-      const FrameGoal to_reach{shares_, now, goal};
+      const FrameGoal to_reach{importance_, now, goal};
       const auto worst = [&](const Part& p) { return worst_of(beside_, not_kept(), p, to_reach, context_); };
       std::vector<std::uint32_t> list;
       if (direct.pays_more_than(gathered) && !(list = worst(direct)).empty()) {
@@ -330,25 +328,25 @@ class CachedEstimator : public LightEstimator {
     return {};
   }
 
-  // Gathers as many samples anew, with paths that go on from further away. Where time ends meanwhile the old ones stay.
+  // Gathers as many samples again, with longer paths. The old ones stay if time runs out.
   Status gather_from_further() {
-    const float before = around_.near();
+    const float before = query_.min_distance();
     if (before >= kFurther) return {};  // as the bake before did, whose light is known
-    around_.set_near(kFurther);
+    query_.set_min_distance(kFurther);
     HalfSums anew = gathered_;
     const std::vector<std::uint32_t> list = not_kept();
-    for (const std::uint32_t i : list) anew.forget(i);
-    LampLight lamps(texels_.count(), options_.directional, around_.groups());
+    for (const std::uint32_t i : list) anew.clear(i);
+    LampLight lamps(texels_.count(), options_.directional, query_.groups());
     if (lamps_.particles > 0) ORIEL_TRY_VOID(follow_lamps(lamps_.particles, lamps, anew));
     ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
       return gather_.run(same, samples, task_.paths, anew);
     }));
     if (ended_early_) {
-      around_.set_near(before);
+      query_.set_min_distance(before);
       return {};
     }
     for (std::size_t i = 0; i < texels_.count(); ++i)
-      if ((keep_beside_[i] = keeps(i))) anew.take_beside(i, gathered_);
+      if ((keep_beside_[i] = keeps(i))) anew.copy_additional(i, gathered_);
     gathered_ = std::move(anew), lamps_ = std::move(lamps);
     update_estimate();
     return {};
@@ -359,9 +357,9 @@ class CachedEstimator : public LightEstimator {
   Context& context_;
   const Texels texels_;
   std::vector<std::uint32_t> order_;
-  MoreSites sites_;
+  ExtraSamplePoints sample_points_;
   DirectLight direct_light_;
-  Surroundings around_;
+  CacheQuery query_;
   TexelGraph graph_, beside_;  // texels that smooth each other; and those that tell of each other's errors
   Sweeps sweeps_;              // bounces on patches
   DirectSums direct_;
@@ -373,16 +371,16 @@ class CachedEstimator : public LightEstimator {
   std::vector<Vec3> irradiance_;   // what gather rays find at a texel
   std::vector<Vec3> coarse_;       // of it what is no particles'
   CachedLight cached_;             // the same, as it varies over texels
-  const FinalGather gather_{sites_, around_, cached_};
+  const FinalGather gather_{sample_points_, query_, cached_};
   BrightTexels bright_;             // what rays are aimed at in it
-  BookedLight booked_;              // irradiance_ by group of lamps, if asked
+  GroupedLight grouped_;            // irradiance_ by group of lamps, if asked
   std::optional<Reuse> reuse_;      // of the bake before
   std::vector<bool> known_direct_;  // by texel: its direct light is that of the bake before
   Hash128 known_name_;
   KnownLight known_now_;  // for the next bake
   FrameError frames_;
   MostRays most_rays_;
-  std::vector<float> shares_;                        // of frames that a texel fills, as its surroundings tell
+  std::vector<float> importance_;                    // of frames that a texel fills, as its surroundings tell
   std::vector<bool> little_seen_;                    // by texel
   float mean_luminance_ = 0;                         // of the light of texels that see any, lux
   std::uint64_t direct_rays_ = 0, gather_rays_ = 0;  // of refinements

@@ -96,7 +96,7 @@ class PageCells {
       if (bend_[i]) bend = std::max(bend, *bend_[i]), narrow = false;
       if (!reflected_bend_.empty()) reflected_bend = std::max(reflected_bend, reflected_bend_[i]);
       crowded = crowded || texels_.crowded[i];
-      light_sum += double{light(i)}, share += double{texels_.shares[i]};
+      light_sum += double{light(i)}, share += double{texels_.importance[i]};
       ++corners;
     }
     if (corners == 0 || share <= 0) return;
@@ -202,7 +202,7 @@ class Chooser {
 }  // namespace
 
 CellTexels CellTexels::of(std::size_t first, std::size_t count) const {
-  CellTexels some{shares.subspan(first, count), crowded.subspan(first, count), {}, {}};
+  CellTexels some{importance.subspan(first, count), crowded.subspan(first, count), {}, {}};
   if (reflected.empty()) return some;
   some.reflected = reflected.subspan(first, count), some.reflected_variance = reflected_variance.subspan(first, count);
   return some;
@@ -211,8 +211,8 @@ CellTexels CellTexels::of(std::size_t first, std::size_t count) const {
 std::vector<CellCandidate> find_cells(const Atlas& atlas, std::span<const TexelMapPage> map, const Radiosity& light,
                                       const CellTexels& texels, const CellGoal& goal) {
   std::vector<CellCandidate> found;
-  const double usual = std::accumulate(texels.shares.begin(), texels.shares.end(), 0.0) /
-                       std::max<double>(1, static_cast<double>(texels.shares.size()));
+  const double usual = std::accumulate(texels.importance.begin(), texels.importance.end(), 0.0) /
+                       std::max<double>(1, static_cast<double>(texels.importance.size()));
   std::size_t first = 0;
   for (std::uint32_t p = 0; p < map.size(); ++p) {
     const std::size_t count = map[p].texel.size();

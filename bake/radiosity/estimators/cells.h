@@ -28,8 +28,8 @@ struct CellGoal {
 
 // What is known of texels, numbered over all pages in the order of the texel map.
 struct CellTexels {
-  std::span<const float> shares;  // of frames
-  std::span<const char> crowded;  // whether something stands or hangs close to it (Texels::has_many)
+  std::span<const float> importance;  // of frames
+  std::span<const char> crowded;           // whether something stands or hangs close to it (Texels::occlusion_heavy)
   std::span<const Vec3> reflected, reflected_variance;  // TexelLight; empty: all cells gather
   CellTexels of(std::size_t first, std::size_t count) const;
 };

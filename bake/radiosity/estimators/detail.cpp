@@ -19,12 +19,12 @@ constexpr double kUsualError = 0.02;  // where none is asked for
 constexpr double kWorth = 0.4;        // of the error allowed: what misses less needs no points that are known
 
 // As pixels of frames are held against (texels/frame_error.h), for one eye that sees all.
-double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<const float> shares) {
+double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<const float> importance) {
   double sum = 0, all = 0;
   std::size_t number = 0;
   for (std::size_t p = 0; p < task.map.size(); ++p)
     for (const std::uint32_t texel : task.map[p].texel) {
-      const double share = shares[number++];
+      const double share = importance[number++];
       sum += share * double{luminance(light.pages[p].irradiance[texel])}, all += share;
     }
   return all > 0 ? kFrameFloor * sum / all : 0;
@@ -49,9 +49,10 @@ class DetailMaker {
   Status run() {
     CellGoal first = goal_;
     first.most_side = 2;
-    std::vector<CellCandidate> found =
-        find_cells(task_.atlas, task_.map, light_,
-                   {known_.shares, known_.texels.has_many, known_.reflected.value, known_.reflected.variance}, goal_);
+    std::vector<CellCandidate> found = find_cells(
+        task_.atlas, task_.map, light_,
+        {known_.importance, known_.texels.occlusion_heavy, known_.reflected.value, known_.reflected.variance},
+        goal_);
     mark_gathering(found);
     CellLevels levels = choose_cells(light_.pages, found, first);
     ORIEL_TRY_VOID(light_cells(levels, 1, 0));
@@ -93,7 +94,7 @@ class DetailMaker {
     for (std::size_t g = 0; g < light_.groups.size(); ++g) {
       for (std::size_t k = 0; k < points_.size(); ++k)
         for (std::size_t i = 0; i < light[k].size(); ++i) {
-          const Vec3 own = points_[k]->booked.of(i)[g];
+          const Vec3 own = points_[k]->grouped.of(i)[g];
           const float all = luminance(light[k][i]);
           points_[k]->light[i] = own;
           points_[k]->variance[i] = variance[k][i] * (all > 0 ? luminance(glm::max(own, Vec3(0))) / all : 0.0f);
@@ -230,7 +231,7 @@ class DetailMaker {
 
 Status add_detail(const RadiosityTask& task, const TexelLight& known, Radiosity& light) {
   CellGoal goal{.error = task.options.error > 0 ? task.options.error : kUsualError,
-                .floor = floor_of(task, light, known.shares),
+                .floor = floor_of(task, light, known.importance),
                 .most_side = std::min(task.options.detail, most_side(task.atlas))};
   if (goal.most_side < 2) {
     task.context.warning(

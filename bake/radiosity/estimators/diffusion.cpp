@@ -18,7 +18,7 @@ Conductance conductances(const Texels& texels, const TexelGraph& graph, const Gu
     for (std::size_t k = 0; k < own.size(); ++k) {
       const std::uint32_t j = own[k];
       if (texels.visible[i] < 1 || texels.visible[j] < 1 || texels.area_m2[i] <= 0) continue;
-      const bool tells = raw.everywhere || texels.has_many[i] || texels.has_many[j];
+      const bool tells = raw.everywhere || texels.occlusion_heavy[i] || texels.occlusion_heavy[j];
       const float beyond = tells ? std::max(0.0f, std::sqrt(raw.distance2(i, j)) - kNoiseAlone) : 0;
       const float likeness = std::exp(-0.5f * (smoothed.distance2(i, j) + beyond * beyond));
       const float both = std::min(texels.area_m2[i], texels.area_m2[j]) / texels.area_m2[i];

@@ -16,9 +16,9 @@ DirectGroup::DirectGroup(const DirectLight& direct, std::span<const std::uint32_
       per_half_(per_half),
       directional_(directional),
       tallies_(list.size()),
-      booked_(list.size(), scene().light_groups.size()),
-      booked_difference_(booked_),
-      booked_passed_{booked_, booked_} {
+      grouped_(list.size(), scene().light_groups.size()),
+      grouped_difference_(grouped_),
+      grouped_passed_{grouped_, grouped_} {
   for (std::uint32_t i = 0; i < list.size(); ++i)
     if (d_.texels_.visible[list[i]] > 0) add_points(i);
 }
@@ -53,8 +53,8 @@ void DirectGroup::run(DirectSums& sums) {
     sums.uneven[list_[i]] = 0.25f * tallies_[i].uneven * tallies_[i].uneven;
     sums.per_half[list_[i]] = per_half_;
     if (!sums.moments.empty()) sums.moments[list_[i]] = tallies_[i].moments;
-    std::ranges::copy(booked_.of(i), sums.booked.of(list_[i]).begin());
-    std::ranges::copy(booked_difference_.of(i), sums.booked_difference.of(list_[i]).begin());
+    std::ranges::copy(grouped_.of(i), sums.grouped.of(list_[i]).begin());
+    std::ranges::copy(grouped_difference_.of(i), sums.grouped_difference.of(list_[i]).begin());
   }
 }
 
@@ -67,18 +67,19 @@ void DirectGroup::add_points(std::uint32_t i) {
   // What casts sharp shadows sends the same ray from the same point.
   const std::uint32_t samples_a_point = d_.t_.accel.scene().lights.empty() ? kSamplesAPoint : 1;
   for (int half = 0; half < kHalves; ++half) {
-    const std::uint32_t kept = d_.sites_.known(list_[i], half);
+    const std::uint32_t kept = d_.sample_points_.cached_count(list_[i], half);
     for (std::uint32_t k = 0; k < per_half_; ++k) {
       const bool again = k > kept && (k - kept) % samples_a_point != 0;
       const std::uint32_t point = k < kept ? k : kept + (k - kept) / samples_a_point;
-      points_.push_back({again ? points_.back().site : d_.sites_.at(list_[i], half, point, rays_), i, half, k, again});
+      points_.push_back(
+          {again ? points_.back().site : d_.sample_points_.at(list_[i], half, point, rays_), i, half, k, again});
     }
   }
 }
 
 bool DirectGroup::is_usable(const Point& point, const Vec3& light) const {
   if (oriel::is_usable(light)) return true;
-  d_.t_.accel.dropped().add(d_.sites_.triangle(list_[point.texel]));
+  d_.t_.accel.dropped().add(d_.sample_points_.triangle(list_[point.texel]));
   return false;
 }
 
@@ -236,9 +237,9 @@ void DirectGroup::receive(const Shot& shot, const Vec3& passed) {
   Tally& tally = tallies_[p.texel];
   const Vec3 light = shot.weight * shot.share * passed;
   tally.passed[p.half] += light;
-  if (booked_.groups > 0 && shot.group != kNoGroup)
+  if (grouped_.groups > 0 && shot.group != kNoGroup)
     each_owner(scene(), shot.group, shot.direction, light,
-               [&](std::uint32_t group, const Vec3& part) { booked_passed_[p.half].of(p.texel)[group] += part; });
+               [&](std::uint32_t group, const Vec3& part) { grouped_passed_[p.half].of(p.texel)[group] += part; });
   if (!directional_) return;
   const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
   tally.from += moments_of(luminance(light) / cosine, shot.direction);
@@ -279,7 +280,7 @@ void DirectGroup::finish_light(const Vec3& radiance, std::uint32_t group, float 
     t.uneven += std::sqrt(hours) * radiance * share * (t.open[0] - t.open[1]) / static_cast<float>(per_half);
     const Vec3 difference = radiance * (t.open[0] * of_half[0] - t.open[1] * of_half[1]) / static_cast<float>(per_half);
     t.difference += difference;
-    if (!booked_.empty()) booked_.of(i)[group] += value, booked_difference_.of(i)[group] += difference;
+    if (!grouped_.empty()) grouped_.of(i)[group] += value, grouped_difference_.of(i)[group] += difference;
     forget_light(t);
   }
 }
@@ -317,9 +318,9 @@ void DirectGroup::finish_sampled(float hours) {
     forget_light(t);
   }
   for (int h = 0; h < kHalves; ++h) {
-    booked_.add(booked_passed_[h], 1 / (kHalves * n));
-    booked_difference_.add(booked_passed_[h], (h == 0 ? 1 : -1) / n);
-    std::ranges::fill(booked_passed_[h].light, Vec3(0));
+    grouped_.add(grouped_passed_[h], 1 / (kHalves * n));
+    grouped_difference_.add(grouped_passed_[h], (h == 0 ? 1 : -1) / n);
+    std::ranges::fill(grouped_passed_[h].light, Vec3(0));
   }
 }
 

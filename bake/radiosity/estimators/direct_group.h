@@ -26,7 +26,7 @@ class DirectGroup {
   static constexpr int kTries = 16;                   // for a point of a light that is above the horizon
 
   struct Point {
-    TexelSite site;
+    SamplePoint site;
     std::uint32_t texel = 0;  // of the list
     int half = 0;
     std::uint32_t k = 0;
@@ -93,8 +93,8 @@ class DirectGroup {
   bool directional_;
   std::vector<Point> points_;
   std::vector<Tally> tallies_;
-  BookedLight booked_, booked_difference_;          // by texel of the list: of all lights so far,
-  std::array<BookedLight, kHalves> booked_passed_;  // and by half of those found by chance now
+  GroupedLight grouped_, grouped_difference_;         // by texel of the list: of all lights so far,
+  std::array<GroupedLight, kHalves> grouped_passed_;  // and by half of those found by chance now
   std::vector<Ray> rays_to_trace_;
   std::vector<Shot> shots_;
   std::vector<Vec3> passed_;

@@ -12,8 +12,9 @@ constexpr std::size_t kTexelsATask = 64;   // texels whose shadow rays to one li
 
 }  // namespace
 
-DirectLight::DirectLight(const Transport& transport, const Texels& texels, const MoreSites& sites, std::uint64_t seed)
-    : t_(transport), texels_(texels), sites_(sites), seed_(seed) {
+DirectLight::DirectLight(const Transport& transport, const Texels& texels, const ExtraSamplePoints& sample_points,
+                         std::uint64_t seed)
+    : t_(transport), texels_(texels), sample_points_(sample_points), seed_(seed) {
   const Scene& scene = transport.accel.scene();
   polygons_ = find_polygon_lights(scene);
   closed_form_ = all_emission_is_plain(scene) && polygons_.size() <= kMaxPolygons;
@@ -40,7 +41,7 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
     for (const std::uint32_t t : part(g)) {
       archive(sums.value[t], sums.difference[t], sums.variance[t], sums.uneven[t], sums.per_half[t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
-      if (!sums.booked.empty()) archive(sums.booked.of(t), sums.booked_difference.of(t));
+      if (!sums.grouped.empty()) archive(sums.grouped.of(t), sums.grouped_difference.of(t));
     }
   };
   return parallel_units(stage, loop);

@@ -1,8 +1,8 @@
 // Direct light of polygon lights and punctual lights per texel: closed forms times sampled visibility.
 #pragma once
 
-#include "bake/radiosity/texels/booked.h"
-#include "bake/radiosity/texels/more_sites.h"
+#include "bake/radiosity/texels/extra_sample_points.h"
+#include "bake/radiosity/texels/grouped_light.h"
 #include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {
@@ -13,9 +13,9 @@ struct DirectSums {
   std::vector<Vec3> difference;  // of its halves, which share neither points nor rays
   std::vector<Vec3> variance;    // of value: closed forms by their mix of lit and dark samples, the rest by halves
   std::vector<Vec3> uneven;      // of the closed forms' means over the texel, likewise from one difference
-  std::vector<std::uint32_t> per_half;    // samples of each half for each light
-  std::vector<Vec4> moments;              // of luminance over the sphere (moments.h); empty unless asked for
-  BookedLight booked, booked_difference;  // of value and difference, by group of lamps
+  std::vector<std::uint32_t> per_half;       // samples of each half for each light
+  std::vector<Vec4> moments;                 // of luminance over the sphere (moments.h); empty unless asked for
+  GroupedLight grouped, grouped_difference;  // of value and difference, by group of lamps
 
   DirectSums(std::size_t texels, bool directional, std::size_t groups = 0)
       : value(texels),
@@ -24,17 +24,17 @@ struct DirectSums {
         uneven(texels),
         per_half(texels),
         moments(directional ? texels : 0),
-        booked(texels, groups),
-        booked_difference(texels, groups) {}
+        grouped(texels, groups),
+        grouped_difference(texels, groups) {}
 
   // Of the halves' light by group.
-  std::array<BookedLight, kHalves> booked_halves() const {
-    std::array<BookedLight, kHalves> halves{booked, booked};
-    halves[0].add(booked_difference, 0.5f), halves[1].add(booked_difference, -0.5f);
+  std::array<GroupedLight, kHalves> grouped_halves() const {
+    std::array<GroupedLight, kHalves> halves{grouped, grouped};
+    halves[0].add(grouped_difference, 0.5f), halves[1].add(grouped_difference, -0.5f);
     return halves;
   }
 
-  void take(std::size_t i, const DirectSums& from, std::size_t k) {
+  void copy(std::size_t i, const DirectSums& from, std::size_t k) {
     value[i] = from.value[k], difference[i] = from.difference[k];
     variance[i] = from.variance[k], uneven[i] = from.uneven[k];
     if (!from.moments.empty()) moments[i] = from.moments[k];
@@ -50,7 +50,8 @@ void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share
 
 class DirectLight {
  public:
-  DirectLight(const Transport& transport, const Texels& texels, const MoreSites& sites, std::uint64_t seed);
+  DirectLight(const Transport& transport, const Texels& texels, const ExtraSamplePoints& sample_points,
+              std::uint64_t seed);
 
   // True where every emitting surface has a closed form; false: surfaces are left to sampling (textured emitters, more
   // polygons than it pays to visit one by one), see LightSet.
@@ -68,7 +69,7 @@ class DirectLight {
   friend class DirectGroup;
   const Transport& t_;
   const Texels& texels_;
-  const MoreSites& sites_;
+  const ExtraSamplePoints& sample_points_;
   std::uint64_t seed_;
   std::vector<PolygonLight> polygons_;
   bool many_punctual_ = false;  // light sampling chooses among them

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bake/radiosity/estimators/radiosity_options.h"
-#include "bake/radiosity/texels/booked.h"
 #include "bake/radiosity/texels/frame_pixels.h"
+#include "bake/radiosity/texels/grouped_light.h"
 #include "bake/radiosity/texels/lightmap_scene.h"
 
 namespace oriel {
@@ -42,20 +42,20 @@ struct Goal {
 Radiosity empty_radiosity(std::span<const TexelMapPage> map, bool directional);
 
 struct Texels;
-class Surroundings;
+class CacheQuery;
 struct CachedLight;
 struct Estimate;
 
 // What an estimator knows of the texels beside their light.
 struct TexelLight {
   const Texels& texels;
-  const Surroundings& around;
+  const CacheQuery& query;
   const CachedLight& cached;
-  std::vector<Vec3> beside;       // by texel: light that no gather ray looks for, lux; empty: none
-  BookedLight beside_booked;      // the same by group of lamps, if asked
-  const Estimate& reflected;      // by texel: light that surfaces reflect to it, as it is shown, `beside` in it
-  BookedLight reflected_booked;   // the same by group of lamps, if asked
-  std::span<const float> shares;  // of frames, by texel
+  std::vector<Vec3> beside;           // by texel: light that no gather ray looks for, lux; empty: none
+  GroupedLight additional_grouped;    // the same by group of lamps, if asked
+  const Estimate& reflected;          // by texel: light that surfaces reflect to it, as it is shown, `beside` in it
+  GroupedLight reflected_grouped;     // the same by group of lamps, if asked
+  std::span<const float> importance;  // of frames, by texel
 };
 
 class LightEstimator {

@@ -151,7 +151,7 @@ Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered) {
 std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context) {
   std::vector<Vec4> moments = sums.moments;
   for (std::size_t i = 0; i < moments.size(); ++i)
-    moments[i] = moments[i] / static_cast<float>(kHalves * std::max(1u, sums.samples[i])) + sums.beside_moments[i];
+    moments[i] = moments[i] / static_cast<float>(kHalves * std::max(1u, sums.samples[i])) + sums.additional_moments[i];
   return pooled(graph, std::move(moments), 1, context);
 }
 
@@ -173,12 +173,14 @@ std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, s
     for (std::size_t i = 0; i < near.size(); ++i) near[i] = 0.5f * (near[i] + wide[i]);
     return near;
   };
-  const auto crowded = [&](std::size_t i, std::size_t j) { return texels.has_many[i] && texels.has_many[j]; };
+  const auto crowded = [&](std::size_t i, std::size_t j) {
+    return texels.occlusion_heavy[i] && texels.occlusion_heavy[j];
+  };
   std::vector<Vec3> of_all = spread([](std::size_t, std::size_t) { return true; });
   // What is close to a surface is met by paths: more noise than beside it.
   const std::vector<Vec3> of_crowded = spread(crowded);
   for (std::size_t i = 0; i < squares.size(); ++i)
-    squares[i] = texels.has_many[i] ? glm::max(of_all[i], of_crowded[i]) : of_all[i];
+    squares[i] = texels.occlusion_heavy[i] ? glm::max(of_all[i], of_crowded[i]) : of_all[i];
   each_texel(context, squares.size(), [&](std::size_t i) { squares[i] *= scale(i); });
   return squares;
 }

@@ -5,10 +5,10 @@
 
 namespace oriel {
 
-BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const GroupHalves& halves,
-                          const FilterOptions& options, Context& context) {
+GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const GroupHalves& halves,
+                           const FilterOptions& options, Context& context) {
   const auto& [light, steps] = halves;
-  BookedLight out = light[0];
+  GroupedLight out = light[0];
   const std::vector<Vec3> none(texels.count(), Vec3(0));
   for (std::size_t g = 0; g < out.groups; ++g) {
     if (light[0].is_dark(g) && light[1].is_dark(g)) continue;
@@ -18,13 +18,13 @@ BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const G
   return out;
 }
 
-BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const LightSums& sums,
-                          const FilterOptions& options, Context& context) {
-  BookedLight out = filter_groups(texels, graph, GroupHalves{sums.gathered.booked_halves(), false}, options, context);
-  const auto halves = sums.direct.booked_halves();
+GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const LightSums& sums,
+                           const FilterOptions& options, Context& context) {
+  GroupedLight out = filter_groups(texels, graph, GroupHalves{sums.gathered.grouped_halves(), false}, options, context);
+  const auto halves = sums.direct.grouped_halves();
   const std::vector<Vec3> none(texels.count(), Vec3(0));
   for (std::size_t g = 0; g < out.groups; ++g) {
-    if (sums.direct.booked.is_dark(g)) continue;
+    if (sums.direct.grouped.is_dark(g)) continue;
     const Halves own{{halves[0].of_group(g), halves[1].of_group(g)}, none, out.of_group(g)};
     std::vector<Vec3> sum = filter(texels, graph, own, narrow(options), context).value;
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own.beside[i];
@@ -33,10 +33,10 @@ BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const L
   return out;
 }
 
-double noise_of_hours(const Surroundings& around, std::span<const float> shares, const LightSums& sums) {
-  const Day& day = around.transport().accel.scene().day;
-  if (day.empty() || around.groups() == 0) return 1;
-  const auto gathered = sums.gathered.booked_halves();
+double noise_of_hours(const CacheQuery& query, std::span<const float> importance, const LightSums& sums) {
+  const Day& day = query.transport().accel.scene().day;
+  if (day.empty() || query.groups() == 0) return 1;
+  const auto gathered = sums.gathered.grouped_halves();
   struct Noise {
     double mean = 0, squares = 0;
     double light = 0, difference = 0;  // of the texel at hand
@@ -53,16 +53,16 @@ double noise_of_hours(const Surroundings& around, std::span<const float> shares,
     all.light = all.difference = 0;
     for (std::size_t g = 0; g < groups; ++g) {
       const double a = luminance(gathered[0].of(i)[g]), b = luminance(gathered[1].of(i)[g]);
-      each[g].light = 0.5 * (a + b) + luminance(sums.direct.booked.of(i)[g]), each[g].difference = 0.5 * (a - b);
+      each[g].light = 0.5 * (a + b) + luminance(sums.direct.grouped.of(i)[g]), each[g].difference = 0.5 * (a - b);
       all.light += each[g].light, all.difference += each[g].difference;
     }
   };
   for (const bool means : {true, false})
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-      if (!(shares[i] > 0)) continue;
+    for (std::size_t i = 0; i < importance.size(); ++i) {
+      if (!(importance[i] > 0)) continue;
       look_at(i);
-      means ? all.add_to_mean(shares[i]) : all.add(shares[i]);
-      for (Noise& one : each) means ? one.add_to_mean(shares[i]) : one.add(shares[i]);
+      means ? all.add_to_mean(importance[i]) : all.add(importance[i]);
+      for (Noise& one : each) means ? one.add_to_mean(importance[i]) : one.add(importance[i]);
     }
   double hours = 0;
   for (const DayHour& hour : day.hours)

@@ -25,22 +25,22 @@ std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& option
 void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums& sums) {
   for (std::size_t i = 0; i < sums.samples.size(); ++i) {
     if (keep[i]) continue;
-    for (int h = 0; h < kHalves; ++h) sums.beside[h][i] = lamps.half(h, i);
-    if (!sums.beside_moments.empty())
-      sums.beside_moments[i] = lamps.moments[i] / static_cast<float>(kHalves * lamps.particles);
+    for (int h = 0; h < kHalves; ++h) sums.additional[h][i] = lamps.half(h, i);
+    if (!sums.additional_moments.empty())
+      sums.additional_moments[i] = lamps.moments[i] / static_cast<float>(kHalves * lamps.particles);
     for (int h = 0; h < kHalves; ++h)
-      for (std::size_t g = 0; g < lamps.booked[h].groups; ++g)
-        sums.beside_booked[h].of(i)[g] = lamps.booked[h].of(i)[g] / static_cast<float>(lamps.particles);
+      for (std::size_t g = 0; g < lamps.grouped[h].groups; ++g)
+        sums.additional_grouped[h].of(i)[g] = lamps.grouped[h].of(i)[g] / static_cast<float>(lamps.particles);
   }
 }
 
 LightBeside smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph, const HalfSums& sums,
                           Context& context) {
   if (lamps.particles == 0) return {};
-  Halves halves{sums.beside, std::vector<Vec3>(texels.count()), std::vector<Vec3>(texels.count())};
+  Halves halves{sums.additional, std::vector<Vec3>(texels.count()), std::vector<Vec3>(texels.count())};
   for (std::size_t i = 0; i < texels.count(); ++i) halves.beside[i] = sums.mean(i);
   return {filter(texels, graph, halves, {.scales = 1}, context).value,
-          filter_groups(texels, graph, GroupHalves{sums.beside_booked}, {.scales = 1}, context)};
+          filter_groups(texels, graph, GroupHalves{sums.additional_grouped}, {.scales = 1}, context)};
 }
 
 bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const Vec3> light,
@@ -49,7 +49,7 @@ bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const
   std::vector<Vec3> of_lamps(light.size()), of_all(light.size());
   double rays = 0;
   for (std::size_t i = 0; i < light.size(); ++i) {
-    const Vec3 a = sums.beside[0][i] - sums.beside[1][i], b = sums.half(0, i) - sums.half(1, i);
+    const Vec3 a = sums.additional[0][i] - sums.additional[1][i], b = sums.half(0, i) - sums.half(1, i);
     of_lamps[i] = 0.25f * a * a, of_all[i] = 0.25f * b * b;
     rays += kHalves * sums.samples[i];
   }

@@ -19,7 +19,7 @@ void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums&
 // no particle was followed.
 struct LightBeside {
   std::vector<Vec3> light;  // HalfSums::beside
-  BookedLight booked;       // HalfSums::beside_booked
+  GroupedLight grouped;     // HalfSums::additional_grouped
 };
 LightBeside smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph, const HalfSums& sums,
                           Context& context);

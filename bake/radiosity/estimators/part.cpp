@@ -27,11 +27,11 @@ bool MostRays::raise() {
   return true;
 }
 
-void Part::measure(std::span<const std::uint32_t> texels, const std::vector<float>& shares) {
+void Part::measure(std::span<const std::uint32_t> texels, const std::vector<float>& importance) {
   mean = stuck = 0;
   double share = 0, all = 0, all_stuck = 0;
   for (const std::uint32_t i : texels) {
-    share += shares[i], mean += squares[i], all += samples[i];
+    share += importance[i], mean += squares[i], all += samples[i];
     if (samples[i] >= most) stuck += squares[i], all_stuck += samples[i];
   }
   if (share > 0) mean /= share, stuck /= share;
@@ -41,10 +41,10 @@ void Part::measure(std::span<const std::uint32_t> texels, const std::vector<floa
 std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels, const Part& part,
                                     const FrameGoal& goal, Context& context) {
   double seen = 0;
-  for (const std::uint32_t i : texels) seen += goal.shares[i];
+  for (const std::uint32_t i : texels) seen += goal.importance[i];
   std::erase_if(texels, [&](std::uint32_t i) { return part.samples[i] >= part.most; });
   const double excess = std::clamp(goal.now - goal.asked, kLeastAtOnce * part.open(), kMostAtOnce * part.open());
-  return worst_texels(graph, texels, {part.squares, goal.shares, part.samples},
+  return worst_texels(graph, texels, {part.squares, goal.importance, part.samples},
                       {.goal = goal.asked * part.open() / goal.now, .excess = excess * seen, .gain = part.gain},
                       context);
 }

@@ -27,7 +27,7 @@ struct Part {
   std::vector<float> squares;                 // by texel: its part of the frames' mean square
 
   // Over the pixels that show `texels`. shares: by texel, of frames that it fills.
-  void measure(std::span<const std::uint32_t> texels, const std::vector<float>& shares);
+  void measure(std::span<const std::uint32_t> texels, const std::vector<float>& importance);
   double mean = 0, stuck = 0;  // the mean square, and of it what has all its samples and stays
   double open_rays = 0;        // of `rays` those of the rest
   double open() const { return mean - stuck; }
@@ -38,8 +38,8 @@ struct Part {
 
 // What both parts are to reach together.
 struct FrameGoal {
-  const std::vector<float>& shares;  // by texel, of frames that it fills, as its surroundings tell
-  double now = 0, asked = 0;         // mean squares over frames
+  const std::vector<float>& importance;  // by texel, of frames that it fills, as its surroundings tell
+  double now = 0, asked = 0;                  // mean squares over frames
 };
 // Those of the measured texels (in coherent_order) whose refinement brings the part nearer to its share of the goal, as
 // worst_texels.

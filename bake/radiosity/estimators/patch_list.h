@@ -21,7 +21,7 @@ struct LightPatch {
   std::vector<PatchLink> links;       // weights divided by the number of rays
   DVec3 source{0};                    // irradiance found that no patch holds, lux: direct light after one reflection,
                                       // sky, emitters behind mirrors
-  std::vector<DVec3> booked;          // the same by group of lamps, if asked
+  std::vector<DVec3> grouped;         // the same by group of lamps, if asked
   Vec3 unreflected{0};                // of it what comes straight from sky and emitters
   double area_m2 = 0;
   std::uint32_t rays = 0;

@@ -27,7 +27,7 @@ constexpr std::uint32_t kOfMuch = 8;  // times as many rays for those that hand 
 class Solver {
  public:
   Solver(const SweepScene& scene, const SweepOptions& options)
-      : texels_(scene.texels), around_(scene.around), direct_(scene.direct), booked_(scene.booked), options_(options) {
+      : texels_(scene.texels), query_(scene.query), direct_(scene.direct), grouped_(scene.grouped), options_(options) {
     const Texels& texels = scene.texels;
     const TexelGraph& graph = scene.graph;
     patch_of_.assign(texels.count(), ~0u);
@@ -40,7 +40,7 @@ class Solver {
         patches_.emplace_back();
         patches_.back().x = texels.x[i] / options_.side, patches_.back().y = texels.y[i] / options_.side;
         patches_.back().stream = head[i];
-        if (booked_) patches_.back().booked.resize(booked_->groups);
+        if (grouped_) patches_.back().grouped.resize(grouped_->groups);
       }
       patches_[number].texels.push_back(i);
       patches_[number].area_m2 += shown_m2(i);
@@ -60,12 +60,12 @@ class Solver {
   Status trace(const Stage& stage, std::uint64_t seed) {
     const bool named = stage.context.units != nullptr;
     const Hash128 direct = named ? hash_of(direct_) : Hash128();
-    const Hash128 booked = named && booked_ ? hash_of(booked_->light) : Hash128();
+    const Hash128 grouped = named && grouped_ ? hash_of(grouped_->light) : Hash128();
     UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kPatchesATask - 1) / kPatchesATask};
     loop.rays = static_cast<double>(kPatchesATask) * options_.rays_per_patch;
     loop.inputs = [&](std::size_t g, Archive& key) {
-      key(direct, options_.side, options_.rays_per_patch, g, around_.near(), around_.lamps(), texels_.eyes);
-      if (booked_) key(booked);
+      key(direct, options_.side, options_.rays_per_patch, g, query_.min_distance(), query_.lamps(), texels_.eyes);
+      if (grouped_) key(grouped);
     };
     loop.compute = [&](std::size_t g) {
       std::uint64_t traced = 0;
@@ -77,13 +77,13 @@ class Solver {
     loop.results = [&](std::size_t g, Archive& archive) {
       for (std::size_t p = g * kPatchesATask; p < group_end(g); ++p) {
         archive(patches_[p].source, patches_[p].unreflected, patches_[p].links);
-        if (booked_) archive(patches_[p].booked);
+        if (grouped_) archive(patches_[p].grouped);
       }
     };
     return parallel_units(stage, loop);
   }
 
-  // Seconds that trace() is likely to take, from one group in so many; their links are forgotten.
+  // Predicts the seconds of trace() from one group in kOneIn; the links of these are dropped.
   Result<double> foretell(const Stage& stage) {
     constexpr std::size_t kOneIn = 64;
     const std::size_t groups = (patches_.size() + kPatchesATask - 1) / kPatchesATask;
@@ -92,18 +92,17 @@ class Solver {
     const auto begun = std::chrono::steady_clock::now();
     const Status traced = parallel_for(stage, "", tried, [&](std::size_t i) {
       const std::size_t g = i * groups / tried;
-      for (std::uint32_t k = 0; k < kSites; ++k)
+      for (std::uint32_t k = 0; k < kSamplePoints; ++k)
         stage.count(trace_sample(g * kPatchesATask, group_end(g), k, stage.context.seed));
     });
     if (!traced) return tl::unexpected(traced.error());
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
-    return took.count() * (double{1.0f * options_.rays_per_patch} / kSites) * static_cast<double>(groups) /
+    return took.count() * (double{1.0f * options_.rays_per_patch} / kSamplePoints) * static_cast<double>(groups) /
            static_cast<double>(tried);
   }
 
   Status solve(Context& context, Sweeps& result);
 
-  // `of_patches` by texel.
   std::vector<Vec3> interpolate(Context& context, const std::vector<Vec3>& of_patches) const;
   const std::vector<Vec3>& solution() const { return solution_; }
   // The light of one group of lamps after as many bounces, by patch.
@@ -113,14 +112,13 @@ class Solver {
   std::size_t group_end(std::size_t g) const { return std::min(patches_.size(), (g + 1) * kPatchesATask); }
   // Texels take turns in proportion to the surface that they show.
   std::uint32_t texel_for(const LightPatch& patch, std::uint32_t turn) const {
-    const double target = (turn + 0.5) / (patch.rays / kSites) * patch.area_m2;
+    const double target = (turn + 0.5) / (patch.rays / kSamplePoints) * patch.area_m2;
     double sum = 0;
     for (const std::uint32_t t : patch.texels)
       if ((sum += shown_m2(t)) >= target) return t;
     return patch.texels.back();
   }
-  // The rim of a gap with a lamp in it lights a whole room, and is a few patches: 64 rays told its light to a half, and
-  // what is near of the lamp's back, to half as much again, as texels there are wider than the gap.
+  // Patches with much reflected flux get more rays, as the rim of a gap with a lamp in it, which lights a whole room.
   void share_rays() {
     std::vector<double> direct_flux(patches_.size(), 0);
     for (std::size_t p = 0; p < patches_.size(); ++p)
@@ -130,7 +128,7 @@ class Solver {
         std::accumulate(direct_flux.begin(), direct_flux.end(), 0.0) / static_cast<double>(patches_.size());
     for (std::size_t p = 0; p < patches_.size(); ++p) {
       LightPatch& patch = patches_[p];
-      const bool crowded = std::ranges::any_of(patch.texels, [&](auto t) { return texels_.has_many[t]; });
+      const bool crowded = std::ranges::any_of(patch.texels, [&](auto t) { return texels_.occlusion_heavy[t]; });
       patch.follows_near = !options_.most && direct_flux[p] > kMuch * mean;  // paths from there count no bounces
       patch.rays = options_.rays_per_patch * (patch.follows_near && crowded ? kOfMuch : 1);
     }
@@ -139,49 +137,48 @@ class Solver {
 
   std::uint64_t trace_sample(std::size_t first, std::size_t end, std::uint32_t k, std::uint64_t seed) {
     std::vector<Ray> batch;
-    std::vector<GatherRay> about;
+    std::vector<GatherRay> info;
     std::vector<std::size_t> asks;
     for (std::size_t p = first; p < end; ++p) {
       if (k >= patches_[p].rays) continue;
       asks.push_back(p);
-      const std::uint32_t t = texel_for(patches_[p], k / kSites);
-      GatherRay& ray = about.emplace_back();
-      const GatherSite site(texels_.site_for(t, static_cast<int>(k % kHalves), k / kHalves));
-      batch.push_back(site.ray(Sampler(seed, patches_[p].stream, k).next2()));
-      if (around_.weighs()) ray.incidence = site.incidence(batch.back().direction);
+      const std::uint32_t t = texel_for(patches_[p], k / kSamplePoints);
+      GatherRay& ray = info.emplace_back();
+      const GatherPoint point(texels_.sample_point(t, static_cast<int>(k % kHalves), k / kHalves));
+      batch.push_back(point.ray(Sampler(seed, patches_[p].stream, k).next2()));
+      if (query_.weighs()) ray.incidence = point.incidence(batch.back().direction);
       ray.stream = ~patches_[p].stream;
-      ray.near = patches_[p].follows_near;
+      ray.follows_near = patches_[p].follows_near;
       ray.sample = k;
     }
     if (batch.empty()) return 0;
-    Answers answers;
-    around_.answer(batch, about, answers);
+    QueryResults results;
+    query_.evaluate(batch, info, results);
     const auto link_to = [&](std::uint32_t ray, std::uint32_t texel, const Vec3& weight) {
       LightPatch& patch = patches_[asks[ray]];
       const float share = 1.0f / static_cast<float>(patch.rays);
       patch.source += DVec3(weight * direct_[texel] * share);
-      for (std::size_t g = 0; g < patch.booked.size(); ++g)
-        patch.booked[g] += DVec3(weight * booked_->of(texel)[g] * share);
+      for (std::size_t g = 0; g < patch.grouped.size(); ++g)
+        patch.grouped[g] += DVec3(weight * grouped_->of(texel)[g] * share);
       if (patch_of_[texel] != ~0u) patch.links.push_back({patch_of_[texel], weight * share});
     };
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
       LightPatch& patch = patches_[asks[i]];
       const float share = kPi / static_cast<float>(patch.rays);
-      patch.source += DVec3(answers.light[i] * share);
-      for (std::size_t g = 0; g < patch.booked.size(); ++g)
-        patch.booked[g] += DVec3(answers.booked[i * around_.groups() + g] * share);
-      patch.unreflected += answers.unreflected[i] * share;
-      if (const std::uint32_t texel = answers.texel[i]; texel != kNoTexel)
-        link_to(i, texel, answers.share[i] * texels_.albedo[texel]);
+      patch.source += DVec3(results.light[i] * share);
+      for (std::size_t g = 0; g < patch.grouped.size(); ++g)
+        patch.grouped[g] += DVec3(results.grouped[i * query_.groups() + g] * share);
+      patch.unreflected += results.unreflected[i] * share;
+      if (const std::uint32_t texel = results.texel[i]; texel != kNoTexel)
+        link_to(i, texel, results.share[i] * texels_.albedo[texel]);
     }
-    for (const Link& link : answers.links) link_to(link.ray, link.texel, link.weight);
-    return batch.size() + answers.rays;
+    for (const Link& link : results.links) link_to(link.ray, link.texel, link.weight);
+    return batch.size() + results.rays;
   }
 
-  // Weights of a patch sum to what surfaces reflect, on average over its rays. A sum beyond that is their noise. Over a
-  // room it evens out, and taking it away would darken the room; but between a few such patches light grows from sweep
-  // to sweep. What is reflected there is told by what the patches beside it and those that it sees hand on, on average;
-  // more than they get they never do.
+  // A bound on the weight sum of a patch, whose expectation is the mean reflectance that its rays meet. The bound is
+  // the mean sum of the patch's neighbours and of the patches that it sees, 1 at most. Noise above it evens out over a
+  // room, but makes light grow from sweep to sweep among a few such patches.
   DVec3 most_handed_on(std::size_t p, const std::vector<DVec3>& sums) const {
     DVec3 sum(0);
     double count = 0;
@@ -205,9 +202,8 @@ class Solver {
     return true;
   }
 
-  // Adds what one sweep finds to `next`; returns the norm of the change.
-  // `share`: of each patch's own light (and `floor`), all patches alike, since there are as many as people look there.
-  // Sunlit ground outside is done after a bounce: by its light or by its area it would drown a room that is not.
+  // The norm of one sweep's change. `share` is relative to each patch's own light plus `floor`, all patches alike: by
+  // area or light, sunlit ground outside, which converges at once, would hide a room that has not.
   struct Change {
     double absolute = 0, share = 0;
   };
@@ -215,14 +211,14 @@ class Solver {
   // Sweeps from what is not reflected until little is missing or there is enough; watches: or until their changes grow.
   enum class End { kDone, kGrows, kStopped };
   End run(Context& context, bool watches, Sweeps& result);
-  // Bounds the patches whose light grows from sweep to sweep; how many.
+  // Bounds the patches whose light grows from sweep to sweep, and returns their number.
   std::size_t bound_growing(Context& context);
   void warn_of_no_end(Context& context, const Sweeps& result) const;
 
   const Texels& texels_;
-  const Surroundings& around_;
+  const CacheQuery& query_;
   std::span<const Vec3> direct_;
-  const BookedLight* booked_;
+  const GroupedLight* grouped_;
   SweepOptions options_;
   std::vector<LightPatch> patches_;
   std::vector<std::uint32_t> patch_of_;  // by texel
@@ -265,7 +261,7 @@ void Solver::warn_of_no_end(Context& context, const Sweeps& result) const {
 }
 
 Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
-  const int most = options_.most.value_or(around_.transport().options.max_bounces);
+  const int most = options_.most.value_or(query_.transport().options.max_bounces);
   std::vector<Vec3> next(patches_.size());
   solution_.resize(patches_.size());
   std::ranges::transform(patches_, solution_.begin(), &LightPatch::unreflected);
@@ -274,7 +270,7 @@ Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
   for (const LightPatch& patch : patches_) area += patch.area_m2;
   const auto patches = static_cast<double>(patches_.size());
   Change before;
-  // A geometric tail, from the ratio q of the last two changes; the first sweep only has its own size to go by.
+  // The geometric tail by the ratio q of the last two changes; after the first sweep its own size is the bound.
   const auto tail = [](double change, double q, double of) { return q < 1 ? change / of * q / (1 - q) : change / of; };
   const auto ratio = [](double change, double last) { return last > 0 ? change / last : 1; };
   for (result.count = 1;; ++result.count) {
@@ -324,13 +320,13 @@ Status Solver::solve(Context& context, Sweeps& result) {
     end = run(context, bounded > 0, result);
   }
   if (end == End::kStopped) return fail(ErrorCode::kStopped, "radiosity", "stopped");
-  const int most = around_.transport().options.max_bounces;
+  const int most = query_.transport().options.max_bounces;
   if (!options_.most && result.count >= most && (result.growth >= 1 || result.tail > kEndless))
     warn_of_no_end(context, result);
   return {};
 }
 
-// Bilinear between a texel's patch and those beside it, by the texel's place among their blocks.
+// Interpolates bilinearly between a texel's patch and its neighbours.
 std::vector<Vec3> Solver::interpolate(Context& context, const std::vector<Vec3>& of_patches) const {
   constexpr std::size_t kRun = 1024;
   std::vector<Vec3> gathered(texels_.count(), Vec3(0));
@@ -361,7 +357,7 @@ std::vector<Vec3> Solver::solve_group(Context& context, std::size_t group, int s
   for (int sweep = 0; sweep <= sweeps && !context.stopped(); ++sweep, now.swap(next))
     (void)parallel_for(context, "", (patches_.size() + kRun - 1) / kRun, [&](std::size_t run) {
       for (std::size_t p = run * kRun; p < std::min(patches_.size(), (run + 1) * kRun); ++p) {
-        DVec3 sum(patches_[p].booked[group]);
+        DVec3 sum(patches_[p].grouped[group]);
         for (const PatchLink& link : patches_[p].links) sum += DVec3(link.weight * now[link.patch]);
         next[p] = Vec3(sum);
       }
@@ -369,9 +365,9 @@ std::vector<Vec3> Solver::solve_group(Context& context, std::size_t group, int s
   return now;
 }
 
-// Options whose rays take no longer than they may, as a few groups of patches tell; patches grow and rays get fewer.
+// Options that keep within the time for rays, by timing a few groups: fewer rays, then larger patches.
 Result<SweepOptions> affordable(const SweepScene& scene, SweepOptions options, const Stage& stage) {
-  constexpr std::uint32_t kFewest = 2 * kSites, kLargest = 8;
+  constexpr std::uint32_t kFewest = 2 * kSamplePoints, kLargest = 8;
   if (!std::isfinite(options.seconds)) return options;
   Solver pilot(scene, options);
   ORIEL_TRY(double needed, pilot.foretell(stage));
@@ -389,11 +385,11 @@ Result<Sweeps> sweep(const SweepScene& scene, const SweepOptions& options, const
   ORIEL_TRY_VOID(solver.trace(stage, stage.context.seed + seeds::kBounces));
   ORIEL_TRY_VOID(solver.solve(stage.context, result));
   result.gathered = solver.interpolate(stage.context, solver.solution());
-  if (!scene.booked) return result;
-  result.booked = BookedLight(scene.texels.count(), scene.booked->groups);
-  for (std::size_t g = 0; g < scene.booked->groups; ++g)
-    result.booked.set_group(g, solver.interpolate(stage.context, solver.solve_group(stage.context, g, result.count)));
-  for (std::size_t i = 0; i < scene.texels.count(); ++i) share_out(result.booked.of(i), result.gathered[i]);
+  if (!scene.grouped) return result;
+  result.grouped = GroupedLight(scene.texels.count(), scene.grouped->groups);
+  for (std::size_t g = 0; g < scene.grouped->groups; ++g)
+    result.grouped.set_group(g, solver.interpolate(stage.context, solver.solve_group(stage.context, g, result.count)));
+  for (std::size_t i = 0; i < scene.texels.count(); ++i) rescale_groups(result.grouped.of(i), result.gathered[i]);
   return result;
 }
 

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "bake/radiosity/estimators/radiosity_options.h"
-#include "bake/radiosity/gather/gather_site.h"
-#include "bake/radiosity/gather/surroundings.h"
-#include "bake/radiosity/texels/booked.h"
+#include "bake/radiosity/gather/cache_query.h"
+#include "bake/radiosity/gather/gather_point.h"
+#include "bake/radiosity/texels/grouped_light.h"
 #include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {
@@ -42,7 +42,7 @@ inline SweepOptions sweep_options(const RadiosityOptions& options, double error,
 
 struct Sweeps {
   std::vector<Vec3> gathered;  // by texel: irradiance that gather rays would find, interpolated from the patches, lux
-  BookedLight booked;          // the same by group of lamps, if asked
+  GroupedLight grouped;        // the same by group of lamps, if asked
   int count = 0;
   double tail = 0;    // the bound reached: what all further sweeps together add at most; the larger of that relative to
                       // the mean and of the mean over patches, each relative to its own light
@@ -55,9 +55,9 @@ struct Sweeps {
 struct SweepScene {
   const Texels& texels;
   const TexelGraph& graph;
-  const Surroundings& around;
-  std::span<const Vec3> direct;         // irradiance by texel that gather rays do not find (closed forms), lux
-  const BookedLight* booked = nullptr;  // `direct` by group of lamps; null: nobody asks
+  const CacheQuery& query;
+  std::span<const Vec3> direct;           // irradiance by texel that gather rays do not find (closed forms), lux
+  const GroupedLight* grouped = nullptr;  // `direct` by group of lamps; null: nobody asks
 };
 
 // Each patch traces its rays once; then Jacobi sweeps run over what they found, until the geometric bound on the rest,

@@ -19,7 +19,7 @@ constexpr std::uint32_t kGather = 16, kMostGather = 64;        // rays; where le
 constexpr float kNoisy = 0.05f;            // relative error of a point's gathered light: then it has
 constexpr std::uint32_t kNoisyGather = 4;  // times as many
 
-constexpr std::uint32_t kFewerSites = 4;  // times as few as texels try: points are small
+constexpr std::uint32_t kPointDivisor = 4;  // times as few as texels try: points are small
 
 // While it lives, random numbers and units of work are the points' own.
 class OwnNumbers {
@@ -87,12 +87,12 @@ Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std
 }
 
 // The filtered light of points by group; what is beside it is added.
-BookedLight add_beside(const TexelLight& known, const Texels& points, std::uint32_t side, BookedLight booked) {
-  for (std::size_t i = 0; i < points.count() && !known.beside_booked.empty(); ++i)
-    for (std::size_t g = 0; g < booked.groups; ++g)
-      booked.of(i)[g] +=
-          between_texels(known, points, i, side, [&](std::uint32_t texel) { return known.beside_booked.of(texel)[g]; });
-  return booked;
+GroupedLight add_beside(const TexelLight& known, const Texels& points, std::uint32_t side, GroupedLight grouped) {
+  for (std::size_t i = 0; i < points.count() && !known.additional_grouped.empty(); ++i)
+    for (std::size_t g = 0; g < grouped.groups; ++g)
+      grouped.of(i)[g] += between_texels(known, points, i, side,
+                                         [&](std::uint32_t texel) { return known.additional_grouped.of(texel)[g]; });
+  return grouped;
 }
 
 // The texel under a point has the light of one side of a wall that stands on it: points on the other side have none.
@@ -130,16 +130,16 @@ Vec3 known_reflected(const TexelLight& known, const Texels& points, std::size_t 
 // Points that do not gather have the texels' light.
 void assume_known(const TexelLight& known, const Texels& points, std::uint32_t side, std::span<const char> gathers,
                   HalfSums& gathered) {
-  const std::size_t groups = known.reflected_booked.groups;
-  BookedLight booked(groups > 0 ? points.count() : 0, groups);
+  const std::size_t groups = known.reflected_grouped.groups;
+  GroupedLight grouped(groups > 0 ? points.count() : 0, groups);
   for (std::size_t i = 0; i < points.count(); ++i) {
     if (gathers[i] || points.visible[i] == 0) continue;
     for (std::size_t g = 0; g < groups; ++g)
-      booked.of(i)[g] = between_texels(known, points, i, side, [&](std::uint32_t texel) {
-        const Vec3 beside = known.beside_booked.empty() ? Vec3(0) : known.beside_booked.of(texel)[g];
-        return known.reflected_booked.of(texel)[g] - beside;
+      grouped.of(i)[g] = between_texels(known, points, i, side, [&](std::uint32_t texel) {
+        const Vec3 beside = known.additional_grouped.empty() ? Vec3(0) : known.additional_grouped.of(texel)[g];
+        return known.reflected_grouped.of(texel)[g] - beside;
       });
-    gathered.assume(i, known_reflected(known, points, i, side), 0, booked);
+    gathered.set_assumed(i, known_reflected(known, points, i, side), 0, grouped);
   }
 }
 
@@ -159,22 +159,23 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   const LightmapScene scene{task.transport, points.atlas, points.map};
   PointLight result;
   ORIEL_TRY(result.texels,
-            list_texels(scene, task.quick, {.eyes = known.texels.eyes, .met = false, .fewer = kFewerSites}));
+            list_texels(scene, task.quick,
+                        {.eyes = known.texels.eyes, .hit_by_rays = false, .point_divisor = kPointDivisor}));
   leave_out_parted(known, points, result.texels);
   const Texels& texels = result.texels;
   const std::size_t n = texels.count();
-  const MoreSites sites(scene, texels, context.seed);
+  const ExtraSamplePoints sample_points(scene, texels, context.seed);
   const std::vector<std::uint32_t> order = coherent_order(texels);
   ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, task.paths));
-  DirectSums direct(n, false, known.around.groups());
-  ORIEL_TRY_VOID(light_directly(task, {task.transport, texels, sites, context.seed}, order, graph, direct));
-  HalfSums gathered(n, false, known.around.groups());
+  DirectSums direct(n, false, known.query.groups());
+  ORIEL_TRY_VOID(light_directly(task, {task.transport, texels, sample_points, context.seed}, order, graph, direct));
+  HalfSums gathered(n, false, known.query.groups());
   Estimate indirect;
   const std::vector<char> which = which_gather(points, texels, gathers);
   assume_known(known, texels, points.side, which, gathered);
   std::vector<std::uint32_t> list = order;
   std::erase_if(list, [&](std::uint32_t i) { return !which[i]; });
-  const FinalGather final_gather{sites, known.around, known.cached};
+  const FinalGather final_gather{sample_points, known.query, known.cached};
   const std::uint32_t first = gathered_rays(task.options);
   for (std::uint32_t rays = first; rays <= kNoisyGather * first; rays *= kNoisyGather) {
     ORIEL_TRY_VOID(final_gather.run(list, rays, task.paths, gathered));
@@ -183,8 +184,8 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
     if (list.empty()) break;
   }
   const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow(task.options.filter), context);
-  BookedLight booked = filter_groups(texels, graph, LightSums{direct, gathered}, task.options.filter, context);
-  result.booked = add_beside(known, texels, points.side, std::move(booked));
+  GroupedLight grouped = filter_groups(texels, graph, LightSums{direct, gathered}, task.options.filter, context);
+  result.grouped = add_beside(known, texels, points.side, std::move(grouped));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
   result.light.resize(n), result.variance.resize(n), result.uneven.resize(n);
   result.reflected_change.resize(n), result.reflected_noise.resize(n);

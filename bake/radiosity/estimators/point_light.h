@@ -15,7 +15,7 @@ struct PointLight {
   std::vector<Vec3> light;     // lux
   std::vector<Vec3> variance;  // of it, stated, lux²
   std::vector<float> uneven;   // squared error of direct light that varies within the point's area, luminance
-  BookedLight booked;          // light by group of lamps, if asked
+  GroupedLight grouped;        // light by group of lamps, if asked
   // Of points that gather: what their reflected light differs by from the texels' around, and the squared error of
   // that, both of luminance. 0 of others, which have the texels'.
   std::vector<float> reflected_change, reflected_noise;

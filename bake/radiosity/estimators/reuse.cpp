@@ -94,7 +94,7 @@ void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, 
     if (texels.visible[i] > 0) mean += DVec3(coarse[i]), ++visible;
   if (visible > 0) mean *= kDarkest / static_cast<double>(visible);
   double all = 0, seen = 0;
-  for (std::size_t i = 0; i < texels.count(); ++i) seen += texels.seen(i);
+  for (std::size_t i = 0; i < texels.count(); ++i) seen += texels.visible_fraction(i);
   report_ = {};
   report_.asked = error;
   if (lamps != known_.lamps) return;
@@ -104,12 +104,12 @@ void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, 
     bool known = true;
     for (const std::uint32_t i : tile) {
       if (texels.visible[i] == 0) continue;
-      count += texels.seen(i);
+      count += texels.visible_fraction(i);
       if (!(known = known && number_[i] != kNoTexel)) break;
       const DVec3 now(coarse[i]), d = now - DVec3(known_.coarse[number_[i]]);
       for (int c = 0; c < 3; ++c)
         if (const double square = now[c] * now[c] + mean[c] * mean[c]; square > 0)
-          relative += texels.seen(i) * d[c] * d[c] / square / 3;
+          relative += texels.visible_fraction(i) * d[c] * d[c] / square / 3;
     }
     ++report_.tiles;
     if (!known || relative > error * error * count) continue;

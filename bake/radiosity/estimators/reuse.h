@@ -57,8 +57,8 @@ class Reuse {
   // Texels that are kept get what was known of them; those of `same_direct` the direct light.
   void give(const std::vector<bool>& same_direct, DirectSums& direct, HalfSums& gathered) const {
     for (std::size_t i = 0; i < kept_.size(); ++i) {
-      if (same_direct[i] || kept_[i]) direct.take(i, known_.direct, number_[i]);
-      if (kept_[i]) gathered.take(i, known_.gathered, number_[i]);
+      if (same_direct[i] || kept_[i]) direct.copy(i, known_.direct, number_[i]);
+      if (kept_[i]) gathered.copy(i, known_.gathered, number_[i]);
     }
   }
   // Root mean square, over its tile, of what the edit changes in the light of a texel that is kept, relative.

@@ -8,14 +8,14 @@ namespace oriel {
 
 std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const std::uint32_t> open,
                                         const TexelErrors& of, const WorstOptions& options, Context& context) {
-  const auto& [squares, shares, samples] = of;
+  const auto& [squares, importance, samples] = of;
   std::vector<float> typical(squares);
   for (std::size_t i = 0; i < typical.size(); ++i) typical[i] *= static_cast<float>(samples[i]);
   typical = typical_errors(graph, std::move(typical), context);
   for (std::size_t i = 0; i < typical.size(); ++i) typical[i] /= static_cast<float>(std::max(1u, samples[i]));
   std::vector<std::uint32_t> by_error;
   for (const std::uint32_t i : open)
-    if (typical[i] > options.goal / 4 * shares[i]) by_error.push_back(i);
+    if (typical[i] > options.goal / 4 * importance[i]) by_error.push_back(i);
   const auto gain_a_ray = [&](std::uint32_t i) { return double{typical[i]} / std::max(1u, samples[i]); };
   std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
     const double ga = gain_a_ray(a), gb = gain_a_ray(b);
@@ -44,14 +44,16 @@ std::vector<SameSamples> groups_of(std::span<const std::uint32_t> list, const st
   return groups;
 }
 
-std::vector<bool> little_seen(std::span<const std::uint32_t> texels, const std::vector<float>& shares, double square) {
-  std::vector<bool> little(shares.size());
+std::vector<bool> little_seen(std::span<const std::uint32_t> texels, const std::vector<float>& importance,
+                              double square) {
+  std::vector<bool> little(importance.size());
   if (square <= 0) return little;
   std::vector<std::uint32_t> by_share(texels.begin(), texels.end());
-  std::sort(by_share.begin(), by_share.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return shares[a] != shares[b] ? shares[a] < shares[b] : a < b; });
+  std::sort(by_share.begin(), by_share.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return importance[a] != importance[b] ? importance[a] < importance[b] : a < b;
+  });
   for (const std::uint32_t i : by_share) {
-    if ((square -= shares[i]) < 0) break;
+    if ((square -= importance[i]) < 0) break;
     little[i] = true;
   }
   return little;

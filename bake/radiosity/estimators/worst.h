@@ -14,7 +14,7 @@ struct WorstOptions {
 // By texel.
 struct TexelErrors {
   const std::vector<float>& squares;          // its part of the mean square
-  const std::vector<float>& shares;           // of frames that it fills, as its surroundings tell
+  const std::vector<float>& importance;  // of frames that it fills, as its surroundings tell
   const std::vector<std::uint32_t>& samples;  // what it has so far, which doubling costs once more
 };
 
@@ -36,6 +36,7 @@ std::vector<SameSamples> groups_of(std::span<const std::uint32_t> list, const st
 // Of `texels` those that fill the least of frames, which together would add no more than `square` to the mean square
 // were all their light wrong. By texel. Bounces are carried by coarser patches with rays of their own: what these
 // texels get beside it are a few rays each. None where no error is asked for (square 0).
-std::vector<bool> little_seen(std::span<const std::uint32_t> texels, const std::vector<float>& shares, double square);
+std::vector<bool> little_seen(std::span<const std::uint32_t> texels, const std::vector<float>& importance,
+                              double square);
 
 }  // namespace oriel

@@ -19,9 +19,9 @@ struct TexelEstimate {
 void write_texels(const TexelEstimate& estimate, Radiosity& light);
 
 // What visible texels have of each group goes to its pages. pages: by group and page.
-void write_booked(const Texels& texels, const BookedLight& booked, std::vector<std::vector<LightmapPage>>& pages);
+void write_grouped(const Texels& texels, const GroupedLight& grouped, std::vector<std::vector<LightmapPage>>& pages);
 
-// Makes the groups' light sum to that of the whole page, texel by texel and point by point (share_out).
-void share_out_page(const LightmapPage& whole, std::size_t page, std::vector<std::vector<LightmapPage>>& groups);
+// Makes the groups' light sum to that of the whole page, texel by texel and point by point (rescale_groups).
+void rescale_page_groups(const LightmapPage& whole, std::size_t page, std::vector<std::vector<LightmapPage>>& groups);
 
 }  // namespace oriel

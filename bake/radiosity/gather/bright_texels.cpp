@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "bake/radiosity/gather/cached_light.h"
-#include "bake/radiosity/gather/gather_site.h"
+#include "bake/radiosity/gather/gather_point.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "formats/core/color.h"
 
@@ -13,58 +13,58 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kShineRays = 32;  // of a cluster
-constexpr std::uint32_t kDivided = 4;     // times as many points of a texel that a wall or a lamp divides
+constexpr std::uint32_t kDivided = 4;     // times as many points on a texel that a wall or a lamp divides
 
-// What shines from under a lamp on a texel; 0 where none is.
-float radiance_of_gap(const LightAround& light, std::uint32_t i) {
+// The radiance in the gap under a lamp on a texel; 0 without such a gap.
+float radiance_in_gap(const InitialLight& light, std::uint32_t i) {
   if (!light.texels.is_cut[i] || !light.texels.cut.at(i).has_lamp()) return 0;
   return light.radiance[light.texels.under_lamp(i)];
 }
-float radiance_beside(const LightAround& light, std::uint32_t i) {
+float radiance_in_open(const InitialLight& light, std::uint32_t i) {
   return light.texels.visible[i] > 0 ? light.radiance[i] : 0.0f;
 }
 
 }  // namespace
 
-LightAround::LightAround(const Texels& t, const MoreSites& s, const CachedLight& cached, std::span<const Vec3> gathered,
-                         std::span<const float> of_frames)
-    : texels(t), sites(s), shares(of_frames), radiance(t.count()) {
+InitialLight::InitialLight(const Texels& t, const ExtraSamplePoints& s, const CachedLight& cached,
+                           std::span<const Vec3> gathered, std::span<const float> of_frames)
+    : texels(t), sample_points(s), importance(of_frames), radiance(t.count()) {
   double sum = 0, all = 0;
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     radiance[i] = luminance(cached.texels[i].radiance);
-    sum += double{shares[i]} * luminance(gathered[i]), all += shares[i];
+    sum += double{importance[i]} * luminance(gathered[i]), all += importance[i];
   }
   if (!(all > 0)) return;
   reflected = static_cast<float>(sum / all);
 }
 
-BrightTexels::BrightTexels(const Surroundings& around, const LightAround& light, std::uint64_t seed)
-    : accel_(&around.transport().accel), texels_(&light.texels), worth_(kWorth * light.reflected) {
+BrightTexels::BrightTexels(const CacheQuery& query, const InitialLight& light, std::uint64_t seed)
+    : accel_(&query.transport().accel), texels_(&light.texels), min_importance_(kMinImportance * light.reflected) {
   if (!(light.reflected > 0)) return;
-  const std::vector<std::uint32_t> list = bright(light);
+  const std::vector<std::uint32_t> list = find_bright(light);
   if (list.empty()) return;
-  beside_.assign(light.texels.count(), kNoTexel), in_gap_ = beside_;
+  open_region_.assign(light.texels.count(), kNoTexel), gap_region_ = open_region_;
   const auto count = std::clamp(kPoints / (kHalves * static_cast<std::uint32_t>(list.size())), kFewest, kMost);
   for (const std::uint32_t i : list) add_regions(light, i, count);
   cluster_regions(light.texels);
   for (std::uint32_t c = 0; c < clusters_.size(); ++c) describe(clusters_[c], c, seed);
   keep_strongest();
-  name_ = hash_of(power_until_, texel_of_, worth_);
+  content_hash_ = hash_of(power_until_, texel_of_, min_importance_);
 }
 
-// In coherent_order.
-std::vector<std::uint32_t> BrightTexels::bright(const LightAround& light) const {
+// Bright texels in coherent_order.
+std::vector<std::uint32_t> BrightTexels::find_bright(const InitialLight& light) const {
   const float least = kBright * light.reflected / kPi;
   const auto sends = [&](std::uint32_t i) {
-    return std::max(radiance_beside(light, i), radiance_of_gap(light, i)) * light.texels.area_m2[i];
+    return std::max(radiance_in_open(light, i), radiance_in_gap(light, i)) * light.texels.area_m2[i];
   };
   std::vector<std::uint32_t> list = coherent_order(light.texels);
   std::erase_if(list, [&](std::uint32_t i) {
     return !(light.texels.area_m2[i] > 0) || !std::isfinite(sends(i)) || !(sends(i) > least * light.texels.area_m2[i]);
   });
   double seen = 0;
-  for (const std::uint32_t i : list) seen += light.shares[i];
-  if (seen > kCommon * std::accumulate(light.shares.begin(), light.shares.end(), 0.0)) return {};
+  for (const std::uint32_t i : list) seen += light.importance[i];
+  if (seen > kCommon * std::accumulate(light.importance.begin(), light.importance.end(), 0.0)) return {};
   if (list.size() <= kTexels) return list;
   std::vector<std::uint32_t> order(list.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -77,36 +77,36 @@ std::vector<std::uint32_t> BrightTexels::bright(const LightAround& light) const 
   return most;
 }
 
-void BrightTexels::add_regions(const LightAround& light, std::uint32_t texel, std::uint32_t count) {
+void BrightTexels::add_regions(const InitialLight& light, std::uint32_t texel, std::uint32_t count) {
   const Texels& texels = light.texels;
-  Region beside, in_gap;
-  std::size_t of_beside = 0, of_gap = 0;
+  Region in_open, in_gap;
+  std::size_t open_points = 0, gap_points = 0;
   const std::uint32_t tries = texels.is_cut[texel] ? kDivided * count : count;
   for (int half = 0; half < kHalves; ++half)
     for (std::uint32_t k = 0; k < tries; ++k) {
-      const SurfacePoint on = light.sites.candidate(texel, half, k);
+      const SurfacePoint on = light.sample_points.candidate(texel, half, k);
       const Texels::Place place = texels.place(on.triangle, on.barycentric);
-      const bool here = place.lies_on == texel, gap = here && place.in_lit_gap, open = here && place.texel == texel;
-      beside.normal += on.geometric_normal;
-      beside.points[half].push_back(open && !gap ? std::optional(on.position) : std::nullopt);
+      const bool here = place.lies_on == texel, gap = here && place.in_lit_gap, is_open = here && place.texel == texel;
+      in_open.normal += on.geometric_normal;
+      in_open.points[half].push_back(is_open && !gap ? std::optional(on.position) : std::nullopt);
       in_gap.points[half].push_back(gap ? std::optional(on.position) : std::nullopt);
-      of_beside += open && !gap, of_gap += gap;
+      open_points += is_open && !gap, gap_points += gap;
     }
-  in_gap.normal = beside.normal;
+  in_gap.normal = in_open.normal;
   const auto add = [&](Region& region, float radiance, std::size_t points, std::vector<std::uint32_t>& number) {
-    region.texels2 = light.sites.texels2(texel);
+    region.area_texels2 = light.sample_points.area_texels2(texel);
     region.power =
         kPi * radiance * texels.area_m2[texel] * static_cast<float>(points) / static_cast<float>(kHalves * tries);
-    if (!(radiance > kBright * light.reflected / kPi) || !(region.power > 0) || !(region.texels2 > 0)) return;
+    if (!(radiance > kBright * light.reflected / kPi) || !(region.power > 0) || !(region.area_texels2 > 0)) return;
     if (glm::length(region.normal) > 0) region.normal = glm::normalize(region.normal);
     number[texel] = static_cast<std::uint32_t>(regions_.size());
     regions_.push_back(std::move(region)), texel_of_.push_back(texel);
   };
-  add(beside, radiance_beside(light, texel), of_beside, beside_);
-  add(in_gap, radiance_of_gap(light, texel), of_gap, in_gap_);
+  add(in_open, radiance_in_open(light, texel), open_points, open_region_);
+  add(in_gap, radiance_in_gap(light, texel), gap_points, gap_region_);
 }
 
-// Those that follow each other on a chart.
+// Clusters are runs of regions on one chart.
 void BrightTexels::cluster_regions(const Texels& texels) {
   const std::size_t most = (regions_.size() + kClusters - 1) / kClusters;
   power_until_.resize(regions_.size());
@@ -145,7 +145,7 @@ void BrightTexels::describe(Cluster& cluster, std::uint64_t stream, std::uint64_
   }
 }
 
-// The rest is met by rays that are not aimed.
+// The other clusters are left to cosine-distributed rays.
 void BrightTexels::keep_strongest() {
   if (clusters_.size() <= kClusters) return;
   std::vector<std::uint32_t> order(clusters_.size());
@@ -153,20 +153,21 @@ void BrightTexels::keep_strongest() {
   std::ranges::sort(order, {}, [&](std::uint32_t c) { return std::pair(-clusters_[c].power, c); });
   order.resize(kClusters);
   std::ranges::sort(order);
-  std::vector<Cluster> kept;
+  std::vector<Cluster> strongest;
   std::vector<std::uint32_t> number(clusters_.size(), kNoTexel);
-  for (const std::uint32_t c : order) number[c] = static_cast<std::uint32_t>(kept.size()), kept.push_back(clusters_[c]);
+  for (const std::uint32_t c : order)
+    number[c] = static_cast<std::uint32_t>(strongest.size()), strongest.push_back(clusters_[c]);
   for (Region& region : regions_) region.cluster = number[region.cluster];
-  clusters_ = std::move(kept);
+  clusters_ = std::move(strongest);
 }
 
-BrightTexels::Aim BrightTexels::aim(const TexelSite& receiver) const {
-  Aim until;
+BrightTexels::ImportanceCdf BrightTexels::importance_cdf(const SamplePoint& receiver) const {
+  ImportanceCdf until;
   float sum = 0;
   for (const Cluster& c : clusters_) {
     const Vec3 off = c.centre - receiver.origin;
     const float distance = glm::length(off), r = c.radius_m;
-    // As if each end were turned to the other as far as the cluster's width lets it: a flat one's in its own plane.
+    // An upper bound of both cosines over the cluster's extent; a flat cluster extends in its own plane only.
     const float turned = glm::dot(receiver.geometric_normal, c.normal), up = std::max(1 - turned * turned, 0.01f);
     const float here = std::min((glm::dot(off, receiver.geometric_normal) + r * std::sqrt(up)) / (distance + r), 1.0f);
     const float there = std::min((r - glm::dot(off, c.normal)) / (distance + r), 1.0f);
@@ -175,18 +176,18 @@ BrightTexels::Aim BrightTexels::aim(const TexelSite& receiver) const {
              (kPi * (distance * distance + r * r));
     until.push_back(sum);
   }
-  if (!(sum > worth_) || !std::isfinite(sum)) until.clear();
+  if (!(sum > min_importance_) || !std::isfinite(sum)) until.clear();
   return until;
 }
 
-std::optional<BrightTexels::Target> BrightTexels::sample(const Aim& aim, int half, const Vec2& u) const {
-  const float at = u.x * aim.back();
+std::optional<BrightTexels::Target> BrightTexels::sample(const ImportanceCdf& cdf, int half, const Vec2& u) const {
+  const float at = u.x * cdf.back();
   const auto c =
-      std::min<std::size_t>(static_cast<std::size_t>(std::ranges::upper_bound(aim, at) - aim.begin()), aim.size() - 1);
-  const float before = c > 0 ? aim[c - 1] : 0;
+      std::min<std::size_t>(static_cast<std::size_t>(std::ranges::upper_bound(cdf, at) - cdf.begin()), cdf.size() - 1);
+  const float before = c > 0 ? cdf[c - 1] : 0;
   const Cluster& cluster = clusters_[c];
-  // The rest of the number tells which region.
-  const float rest = (at - before) / std::max(aim[c] - before, 1e-30f) * cluster.power;
+  // The remainder of u.x selects the region.
+  const float rest = (at - before) / std::max(cdf[c] - before, 1e-30f) * cluster.power;
   const auto begin = power_until_.begin() + cluster.first, end = power_until_.begin() + cluster.end;
   const auto r =
       std::min(static_cast<std::uint32_t>(std::upper_bound(begin, end, rest) - power_until_.begin()), cluster.end - 1);
@@ -198,18 +199,18 @@ std::optional<BrightTexels::Target> BrightTexels::sample(const Aim& aim, int hal
 
 std::uint32_t BrightTexels::region(const Texels::Place& place) const {
   if (empty() || place.lies_on == kNoTexel) return kNoTexel;
-  if (!place.in_lit_gap && place.texel != place.lies_on) return kNoTexel;  // a wall parts it
-  const std::uint32_t r = (place.in_lit_gap ? in_gap_ : beside_)[place.lies_on];
+  if (!place.in_lit_gap && place.texel != place.lies_on) return kNoTexel;  // a wall separates it
+  const std::uint32_t r = (place.in_lit_gap ? gap_region_ : open_region_)[place.lies_on];
   return r != kNoTexel && regions_[r].cluster != kNoTexel ? r : kNoTexel;
 }
 
-// Points are even over the texel's square on its page, and so as dense in the world as the triangle met is large there.
-float BrightTexels::density(const Aim& aim, std::uint32_t r, const Ray& ray, const Hit& hit) const {
+// Points are uniform on the page: their density in the world is the triangle's texel density.
+float BrightTexels::density(const ImportanceCdf& cdf, std::uint32_t r, const Ray& ray, const Hit& hit) const {
   const Region& region = regions_[r];
   const std::uint32_t c = region.cluster;
-  const float chance = (aim[c] - (c > 0 ? aim[c - 1] : 0)) / aim.back() * region.power / clusters_[c].power;
+  const float chance = (cdf[c] - (c > 0 ? cdf[c - 1] : 0)) / cdf.back() * region.power / clusters_[c].power;
   const Scene& scene = accel_->scene();
-  const float per_m2 = texels_->texels2_per_m2(scene, hit.triangle) / region.texels2;
+  const float per_m2 = texels_->texels2_per_m2(scene, hit.triangle) / region.area_texels2;
   const float cosine = std::fabs(glm::dot(geometry_at(scene, hit, ray.direction).geometric_normal, ray.direction));
   return chance * per_m2 * hit.distance * hit.distance / std::max(cosine, 1e-6f);
 }

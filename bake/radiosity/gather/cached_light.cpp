@@ -7,11 +7,11 @@ namespace {
 
 Vec3 centre_of(const Texels& texels, std::size_t i) {
   Vec3 sum(0);
-  for (const TexelSite& site : texels.site[i]) sum += site.origin;
-  return sum / static_cast<float>(kSites);
+  for (const SamplePoint& point : texels.sample_points[i]) sum += point.origin;
+  return sum / static_cast<float>(kSamplePoints);
 }
 
-// The gradient along the surface that best tells the neighbours' light.
+// The least-squares gradient along the surface by the neighbours' light.
 void fit_slope(const TexelGraph& graph, const Vec3& normal, std::size_t i, std::span<const CachedTexel> all,
                CachedTexel& texel) {
   const Mat3 frame = frame_from_normal(normal);
@@ -24,27 +24,27 @@ void fit_slope(const TexelGraph& graph, const Vec3& normal, std::size_t i, std::
     xx += x * x, xy += x * y, yy += y * y;
     x_light += x * difference, y_light += y * difference;
   }
-  // Neighbours in one line leave the slope across it open: the least one is taken.
+  // The ridge picks the smallest slope where neighbours lie in one line.
   const double ridge = 1e-3 * (xx + yy);
   xx += ridge, yy += ridge;
   const double determinant = xx * yy - xy * xy;
   if (!(determinant > 0)) return;
   const DVec3 along_x = (yy * x_light - xy * y_light) / determinant,
               along_y = (xx * y_light - xy * x_light) / determinant;
-  // Over texels of no extent they are no numbers: then the light is even.
+  // Texels without extent give no finite slope: their light is constant.
   for (int c = 0; c < 3; ++c) {
     texel.slope[c] = static_cast<float>(along_x[c]) * frame[0] + static_cast<float>(along_y[c]) * frame[1];
     if (!is_finite(texel.slope[c])) texel.slope[c] = Vec3(0);
   }
 }
 
-// Shortens slopes until no site of the texel is below zero. An estimate may itself be below zero, where light is a
+// Shortens slopes until radiance is at least 0 at all sample points. An estimate may itself be negative, as a
 // difference of two: then it has no slope.
 void limit_slope(const Texels& texels, std::size_t i, CachedTexel& texel) {
   for (int c = 0; c < 3; ++c) {
     float most = 0;
-    for (const TexelSite& site : texels.site[i])
-      most = std::max(most, std::abs(glm::dot(texel.slope[c], site.origin - texel.centre)));
+    for (const SamplePoint& point : texels.sample_points[i])
+      most = std::max(most, std::abs(glm::dot(texel.slope[c], point.origin - texel.centre)));
     if (!(texel.radiance[c] > 0))
       texel.slope[c] = Vec3(0);
     else if (most > texel.radiance[c])
@@ -66,7 +66,7 @@ CachedLight cache_light(const Texels& texels, const TexelGraph& graph, std::span
   (void)parallel_for(context, "", (n + kRun - 1) / kRun, [&](std::size_t run) {
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {
       if (texels.visible[i] == 0) continue;
-      fit_slope(graph, texels.site[i][0].geometric_normal, i, light.texels, light.texels[i]);
+      fit_slope(graph, texels.sample_points[i][0].geometric_normal, i, light.texels, light.texels[i]);
       limit_slope(texels, i, light.texels[i]);
     }
   });

@@ -14,12 +14,12 @@ namespace oriel {
 namespace {
 
 constexpr std::uint64_t kUnit = 8192;  // particles
-constexpr std::size_t kUnits = 128;    // whose light is kept until it is added up
+constexpr std::size_t kUnits = 128;    // whose light is buffered
 constexpr float kMostParticles = 16;   // that one splits into at a time
 constexpr std::uint32_t kNoTriangle = ~0u;
-constexpr float kOften = 4;  // times as often as they are bright, further reflections are looked at
+constexpr float kOften = 4;  // survival probability of further reflections over reflectance
 
-// What came to a texel, of one particle or of a unit of them.
+// Light that arrived at a texel, from one particle or from a unit of them.
 struct Arrival {
   std::uint32_t texel = 0;
   Vec3 light{0};    // lux
@@ -29,7 +29,7 @@ void fields(Archive& archive, Arrival& a) {
   archive(a.texel, a.light, a.moments);
 }
 
-// One for each texel: in metal boxes particles arrive many times.
+// Merges the arrivals of each texel: in metal boxes there are many.
 void add_up(std::vector<Arrival>& arrivals) {
   std::stable_sort(arrivals.begin(), arrivals.end(),
                    [](const Arrival& a, const Arrival& b) { return a.texel < b.texel; });
@@ -43,18 +43,18 @@ void add_up(std::vector<Arrival>& arrivals) {
   arrivals.shrink_to_fit();
 }
 
-// The same light by group of lamps.
-struct BookedArrival {
+// The same by light group.
+struct GroupedArrival {
   std::uint32_t texel = 0, group = 0;
   Vec3 light{0};
 };
-void fields(Archive& archive, BookedArrival& a) {
+void fields(Archive& archive, GroupedArrival& a) {
   archive(a.texel, a.group, a.light);
 }
 
-// Of particles of one group; adds them to those of others.
-void book(std::span<const Arrival> arrivals, std::uint32_t group, std::vector<BookedArrival>& booked) {
-  for (const Arrival& a : arrivals) booked.push_back({a.texel, group, a.light});
+// Appends the arrivals of one light group's particles.
+void add_group_arrivals(std::span<const Arrival> arrivals, std::uint32_t group, std::vector<GroupedArrival>& grouped) {
+  for (const Arrival& a : arrivals) grouped.push_back({a.texel, group, a.light});
 }
 
 std::uint32_t group_of(const Particle& particle) {
@@ -64,18 +64,18 @@ std::uint32_t group_of(const PolishedSuns::Start& start) {
   return start.particle.group;
 }
 
-// One particle, from its lamp on.
+// Traces one particle from its lamp.
 class LampWalk {
  public:
-  LampWalk(const Texels& texels, const Surroundings& around, Sampler& sampler, std::vector<Arrival>& arrivals)
-      : texels_(texels), around_(around), t_(around.transport()), sampler_(sampler), arrivals_(arrivals) {}
+  LampWalk(const Texels& texels, const CacheQuery& query, Sampler& sampler, std::vector<Arrival>& arrivals)
+      : texels_(texels), query_(query), t_(query.transport()), sampler_(sampler), arrivals_(arrivals) {}
 
   // Returns the rays traced.
   std::uint64_t run(const Particle& particle) {
     ray_ = particle.ray, power_ = particle.power, punctual_ = particle.punctual;
     return go_on();
   }
-  // The same of one that is reflected by that triangle or ends.
+  // The same for a particle that must be reflected by `triangle` first.
   std::uint64_t run(const PolishedSuns::Start& start) {
     reflected_by_ = start.triangle;
     return run(start.particle);
@@ -88,7 +88,7 @@ class LampWalk {
     while (max_component(power_) > 0 && passes < kMaxPasses) {
       const Hit hit = t_.accel.intersect(ray_);
       ++rays;
-      if (!hit || (leaves_ != kNoTexel && around_.goes_on(hit.distance, leaves_))) break;
+      if (!hit || (leaves_ != kNoTexel && query_.continues_path(hit.distance, leaves_))) break;
       leaves_ = kNoTexel;
       const bool starts = bounces_ == 0 && reflected_by_ != kNoTriangle;
       if (starts && hit.triangle != reflected_by_) break;
@@ -114,8 +114,8 @@ class LampWalk {
     return rays;
   }
 
-  // The light of points crosses solid glass unbent, as the shadow rays of paths from eyes do. Where its front is
-  // frosted they find what it reflects too: that is half of the particles.
+  // Light of punctual lamps crosses solid glass straight, as shadow rays do. At a frosted front half of the particles
+  // are reflected instead, since paths sample that reflection too.
   bool passes_glass(const Hit& hit) {
     const Scene& scene = t_.accel.scene();
     if (!scene.material_of(hit.triangle).solid) return false;
@@ -130,7 +130,7 @@ class LampWalk {
     return true;
   }
 
-  // As paths do: one that weighs as much as several goes on as so many.
+  // Splits a particle of large weight, as paths are split.
   std::uint64_t split() {
     const float weight = first_ > 0 ? max_component(power_) / first_ : 0;
     if (!(weight >= 2)) return 0;
@@ -141,26 +141,26 @@ class LampWalk {
     return rays;
   }
 
-  // Whether the particle goes on.
+  // Deposits light on the texel hit; true if the particle continues.
   bool arrive(const Hit& hit) {
     const std::uint32_t texel = hit.front ? texels_.find(hit.triangle, hit.barycentric) : kNoTexel;
     if (texel == kNoTexel) return true;
     const SurfacePoint on_texel = point_on_side(t_.accel.scene(), hit.triangle, hit.barycentric);
     const Vec3 from = -ray_.direction;
     const float cosine = glm::dot(on_texel.geometric_normal, from);
-    // What lies beyond a wall on its texel is answered for by others, and is no part of their surface.
+    // A point that a wall separates from its texel is outside the area of any texel.
     const bool own = !texels_.parts(hit.triangle, hit.barycentric);
     if (own && cosine > 0 && texels_.visible[texel] > 0 && texels_.area_m2[texel] > 0) {
       // Irradiance goes by the interpolated normal.
       const float tilt = Shading(on_texel, on_texel.normal).cosine(from) / cosine;
       const Vec3 light = power_ * (tilt / (texels_.area_m2[texel] * texels_.visible[texel]));
-      const float incidence = std::max(glm::dot(texels_.site[texel][0].normal, from), kLeastCosine);
+      const float incidence = std::max(glm::dot(texels_.sample_points[texel][0].normal, from), kLeastCosine);
       if (is_usable(light))
         arrivals_.push_back({texel, light, moments_of(luminance(light) / incidence, from)});
       else
         t_.accel.dropped().add(hit.triangle);
     }
-    // Textures are read only as often as what is reflected once more is worth it.
+    // Russian roulette before textures are read.
     const SceneMaterial& material = t_.accel.scene().material_of(hit.triangle);
     if (material.alpha_mode != AlphaMode::kOpaque || material.transmission > 0) return true;
     const float q = std::min(1.0f, kOften * (1 - texels_.diffuse_share[texel].at(cosine)));
@@ -169,7 +169,7 @@ class LampWalk {
     return true;
   }
 
-  // The next ray, by all lobes but the diffuse one; weighted as paths weigh it that come the other way.
+  // Samples the next ray by all lobes but the diffuse one, with the weight of the adjoint path.
   void scatter(const Hit& hit, SurfacePoint& surface) {
     const Vec3 wi = -ray_.direction;
     const float kept = 1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, wi)));
@@ -185,16 +185,16 @@ class LampWalk {
     }
     const bool refracted = sample->lobe == Lobe::kRefraction;
     if (reflected_by_ != kNoTriangle && bounces_ == 0 && refracted) power_ = Vec3(0);
-    if (is_frosted(surface.shade) && (refracted || surface.shade.inside)) power_ = Vec3(0);  // that is paths'
+    if (is_frosted(surface.shade) && (refracted || surface.shade.inside)) power_ = Vec3(0);  // left to paths
     medium_.leave(surface.shade, refracted);
     if (sample->lobe == Lobe::kTransmission) {
       power_ *= sample->weight;
-      // What a frosted pane spreads is found by light sampling.
+      // Light spread by a frosted pane is left to light sampling.
       if (punctual_ && bounces_ == 0 && t_.lights.frosted().spreads(hit.triangle)) power_ = Vec3(0);
     } else {
       const Vec3 wo = shading.world(*sample);
       power_ *= refracted || surface.shade.inside
-                    ? sample->weight / sample->squeeze
+                    ? sample->weight / sample->radiance_scale
                     : weight(hit, *sample, shading, wi, wo) * (glm::dot(surface.geometric_normal, wo) / cos_i);
       if (bounces_++ == 0) {
         first_ = max_component(power_);
@@ -211,7 +211,7 @@ class LampWalk {
     power_ = Vec3(0);
   }
 
-  // Whether glass that the particle comes out of is diffuse as well, seen from where it goes.
+  // True if the outside of the glass that the particle leaves has a diffuse lobe.
   bool is_left_diffuse(const SurfacePoint& surface) const {
     return !surface.front &&
            max_component(shade_point(t_.accel.scene(), surface.triangle, surface.barycentric).diffuse) > 0;
@@ -225,14 +225,14 @@ class LampWalk {
     return pdf > 0 ? Shading(seen, wo).eval(wi) / pdf : Vec3(0);
   }
 
-  // The first reflection is never ended by chance: all that arrive are faint, and alike.
+  // Russian roulette. The first reflection is exempt: all arrivals are faint, and alike.
   void survive() {
     const float q = first_ > 0 ? std::min(1.0f, max_component(power_) / first_) : 0;
     power_ = q > 0 && sampler_.next1() < q ? power_ / q : Vec3(0);
   }
 
   const Texels& texels_;
-  const Surroundings& around_;
+  const CacheQuery& query_;
   const Transport& t_;
   Sampler& sampler_;
   std::vector<Arrival>& arrivals_;
@@ -249,16 +249,17 @@ class LampWalk {
 
 }  // namespace
 
-Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64_t per_half, const Stage& stage,
+Status trace_lamps(const Texels& texels, const CacheQuery& query, std::uint64_t per_half, const Stage& stage,
                    LampLight& light) {
   const Context& context = stage.context;
-  const Transport& t = around.transport();
+  const Transport& t = query.transport();
   const Sources sources(t.accel.scene(), t.lights);
   const bool near = std::ranges::find(sources.kinds(), SourceKind::kNear) != sources.kinds().end();
   if (!light.suns) {
-    std::uint64_t pilot = 0;
-    light.suns = std::make_shared<const PolishedSuns>(t.accel, t.lights, context.seed + seeds::kPolished, pilot);
-    stage.count(pilot);
+    std::uint64_t calibration_rays = 0;
+    light.suns =
+        std::make_shared<const PolishedSuns>(t.accel, t.lights, context.seed + seeds::kPolished, calibration_rays);
+    stage.count(calibration_rays);
   }
   const PolishedSuns& suns = *light.suns;
   if (!near && suns.empty()) return {};
@@ -266,9 +267,9 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
     const std::uint64_t first = light.particles, count = std::min(per_half - first, kUnit * (kUnits / kHalves));
     const std::size_t units = (count + kUnit - 1) / kUnit;  // of each half
     std::vector<std::vector<Arrival>> arrivals(units * kHalves);
-    std::vector<std::vector<BookedArrival>> booked(units * kHalves);
+    std::vector<std::vector<GroupedArrival>> grouped(units * kHalves);
     UnitLoop loop{.stage = "lamp paths", .count = arrivals.size(), .rays = 4.0 * kUnit};
-    loop.inputs = [&](std::size_t u, Archive& key) { key(first, count, u, around.near(), texels.eyes); };
+    loop.inputs = [&](std::size_t u, Archive& key) { key(first, count, u, query.min_distance(), texels.eyes); };
     loop.compute = [&](std::size_t u) {
       std::uint64_t traced = 0;
       const std::uint64_t from = first + u / kHalves * kUnit, to = std::min(first + count, from + kUnit);
@@ -277,8 +278,9 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
           Sampler sampler(context.seed + seed, u % kHalves, static_cast<std::uint32_t>(k));
           const auto particle = emit(sampler);
           const std::size_t before = arrivals[u].size();
-          traced += LampWalk(texels, around, sampler, arrivals[u]).run(particle);
-          if (!light.booked[0].empty()) book(std::span(arrivals[u]).subspan(before), group_of(particle), booked[u]);
+          traced += LampWalk(texels, query, sampler, arrivals[u]).run(particle);
+          if (!light.grouped[0].empty())
+            add_group_arrivals(std::span(arrivals[u]).subspan(before), group_of(particle), grouped[u]);
         };
         if (near) follow(seeds::kLampPaths, [&](Sampler& s) { return sources.emit(SourceKind::kNear, s); });
         if (!suns.empty()) follow(seeds::kPolished + 1, [&](Sampler& s) { return suns.emit(s, traced); });
@@ -288,11 +290,11 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
     };
     loop.results = [&](std::size_t u, Archive& archive) {
       archive(arrivals[u]);
-      if (!light.booked[0].empty()) archive(booked[u]);
+      if (!light.grouped[0].empty()) archive(grouped[u]);
     };
     ORIEL_TRY_VOID(parallel_units(stage, loop));
-    for (std::size_t u = 0; u < booked.size(); ++u)
-      for (const BookedArrival& a : booked[u]) light.booked[u % kHalves].of(a.texel)[a.group] += a.light;
+    for (std::size_t u = 0; u < grouped.size(); ++u)
+      for (const GroupedArrival& a : grouped[u]) light.grouped[u % kHalves].of(a.texel)[a.group] += a.light;
     for (std::size_t u = 0; u < arrivals.size(); ++u)
       for (const Arrival& a : arrivals[u]) {
         light.sum[u % kHalves][a.texel] += a.light;

@@ -1,4 +1,4 @@
-// Where light comes from: its first moment over the sphere, beside its mean (LightmapPage::direction).
+// The first moment of light over the sphere, and its mean, for LightmapPage::direction.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 
 namespace oriel {
 
-// Light of that luminance times solid angle (cd/m² sr) from one direction, over the sphere: vector (xyz), mean (w).
+// First moment (xyz) and mean (w) over the sphere of light from one direction. light: luminance times solid angle,
+// cd/m² sr. direction: unit.
 inline Vec4 moments_of(float light, const Vec3& direction) {
   const float share = light / (4 * kPi);
   return {share * direction, share};
@@ -20,7 +21,8 @@ inline Vec3 direction_of(const Vec4& moments) {
   return d / std::max(1.0f, glm::length(d));  // longer than 1 by rounding only
 }
 
-// Cosine rays weight light by 1 / cosine: grazing ones are held to this cosine, lest a few decide the direction.
+// The moments weight cosine-distributed rays by 1 / cosine. The cosine is clamped to at least this, so that a few
+// grazing rays do not decide the direction.
 inline constexpr float kLeastCosine = 0.05f;
 
 }  // namespace oriel

@@ -11,11 +11,11 @@
 namespace oriel {
 namespace {
 
-constexpr double kPilotRays = 1 << 17;  // of all triangles together, about
-constexpr int kMostPilot = 64;          // of one
-constexpr double kUnseen = 0.02;        // of a triangle's weight: of one on which no ray found the sun
+constexpr double kCalibrationRays = 1 << 17;  // of all triangles together, about
+constexpr int kMaxRaysATriangle = 64;         // of one
+constexpr double kUnseen = 0.02;              // visibility of a triangle where no ray found the sun
 
-// What a triangle would reflect of a sun if nothing hid that, lm.
+// The unoccluded flux of a sun that a triangle reflects, luminance, lm.
 double reflected(const Scene& scene, std::uint32_t triangle, const Light& sun) {
   const SceneMaterial& material = scene.material_of(triangle);
   float cosine = glm::dot(geometric_normal(scene, triangle), -sun.direction);
@@ -42,18 +42,18 @@ PolishedSuns::PolishedSuns(const Accel& accel, const LightSet& lights, std::uint
       all += weight;
     }
   }
-  // Triangles too small for a ray of their own have what was found before them on the same surface: meshes list
-  // neighbours together.
+  // A triangle too small for its own rays takes the last visibility measured on its surface: meshes list neighbours
+  // together.
   double sum = 0, owed = 0, seen = 1;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const auto surface = [&](std::size_t of) { return scene.triangle_surface[targets_[of].triangle]; };
     if (i == 0 || targets_[i].light != targets_[i - 1].light || surface(i) != surface(i - 1)) seen = 1;
-    owed += kPilotRays * weights[i] / all;
-    if (const int pilot = static_cast<int>(std::min(owed, double{kMostPilot})); pilot > 0) {
+    owed += kCalibrationRays * weights[i] / all;
+    if (const int tries = static_cast<int>(std::min(owed, double{kMaxRaysATriangle})); tries > 0) {
       owed = 0, seen = 0;
-      for (int k = 0; k < pilot; ++k) {
+      for (int k = 0; k < tries; ++k) {
         Sampler sampler(seed, i, static_cast<std::uint32_t>(k));
-        seen += max_component(start_on(targets_[i], sampler, rays).particle.power) > 0 ? 1.0 / pilot : 0.0;
+        seen += max_component(start_on(targets_[i], sampler, rays).particle.power) > 0 ? 1.0 / tries : 0.0;
       }
     }
     cdf_.push_back(sum += weights[i] * std::max(kUnseen, seen));
@@ -69,7 +69,7 @@ PolishedSuns::Start PolishedSuns::emit(Sampler& sampler, std::uint64_t& rays) co
   return start;
 }
 
-// What the triangle gets of the sun.
+// A particle at a random point of the triangle, with the flux that the sun brings there.
 PolishedSuns::Start PolishedSuns::start_on(const Target& target, Sampler& sampler, std::uint64_t& rays) const {
   const Scene& scene = accel_.scene();
   const Vec2 at = square_to_triangle(sampler.next2());

@@ -1,4 +1,4 @@
-// The suns' light where polished surfaces throw it on.
+// Emission of particles from suns at the polished surfaces that they light.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace oriel {
 
-// Particles from directional lights that start where these meet polished surfaces (is_polished): of those that start
-// through a disk as large as the scene few would come into a room. Each triangle is chosen by what it gets of a sun and
-// reflects, as a few shadow rays tell; where none of them finds the sun a little is left, so that the mean stays right.
-// Holds references. Immutable.
+// Particles from directional lights that start where the light hits polished surfaces (is_polished). Started on a disk
+// as large as the scene, few would enter a room. A triangle is chosen in proportion to the unoccluded flux that it gets
+// and reflects, times its visibility to the sun as measured by a few shadow rays. The visibility is clamped to a small
+// minimum, which keeps the estimate unbiased. Holds references. Immutable.
 class PolishedSuns {
  public:
   struct Start {
@@ -19,11 +19,11 @@ class PolishedSuns {
     std::uint32_t triangle = 0;
   };
 
-  // Adds to `rays`.
+  // Traces the shadow rays, and adds their number to `rays`.
   PolishedSuns(const Accel& accel, const LightSet& lights, std::uint64_t seed, std::uint64_t& rays);
 
   bool empty() const { return targets_.empty(); }
-  // Power 0 where something hides the sun there. A mean over many is all of such light.
+  // Emits one particle; power in lm, 0 if the sun is occluded there. The mean over many is all of such light.
   Start emit(Sampler& sampler, std::uint64_t& rays) const;
 
  private:
@@ -35,7 +35,7 @@ class PolishedSuns {
   const Accel& accel_;
   const LightSet& lights_;
   std::vector<Target> targets_;
-  std::vector<double> cdf_;  // cumulative, of what they reflect, lm
+  std::vector<double> cdf_;  // cumulative reflected flux, lm
 };
 
 }  // namespace oriel

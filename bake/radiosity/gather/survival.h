@@ -1,16 +1,16 @@
-// How often gather rays go on from the specular layers of what they meet.
+// Russian roulette at specular layers: the survival probability of gather paths.
 #pragma once
 
+#include "bake/radiosity/gather/cache_query.h"
 #include "bake/radiosity/gather/cached_light.h"
-#include "bake/radiosity/gather/surroundings.h"
 
 namespace oriel {
 
-// Tells it to `around`, by material of the scene: what makes noise times cost least, as some rays from some
-// of the texels tell (Bolin and Meyer 1997; Rath et al. 2022). Layers that reflect a bright window into a dim hall are
-// worth a path each time, those of a matte wall hardly any. Powers of two: a small edit of the scene changes none.
-// Error kStopped, and nothing is told.
-Status learn_survival(const Texels& texels, Surroundings& around, std::span<const std::uint32_t> order,
+// Calibrates the survival of paths at specular layers, by material, and sets it in `query`: the values that minimise
+// variance times cost, from some rays of some texels (Bolin and Meyer 1997; Rath et al. 2022). A layer that reflects a
+// bright window into a dim hall gets a path each time, the layer of a matte wall hardly ever. The values are powers of
+// two, so that a small edit of the scene changes none. Error kStopped: nothing is set.
+Status learn_survival(const Texels& texels, CacheQuery& query, std::span<const std::uint32_t> order,
                       const CachedLight& cached, const Stage& stage);
 
 }  // namespace oriel

@@ -1,4 +1,4 @@
-// What the specular layers over a texel leave to its diffuse reflection.
+// The fraction of a texel's diffuse reflection that its specular layers let through.
 #pragma once
 
 #include <array>
@@ -10,12 +10,13 @@
 
 namespace oriel {
 
-// Mean over some points of 1 - max R(θ) (trace/albedo.h), by the cosine of the direction of sight. Tabulated over
-// (1 - cosθ)², for R rises where sight grazes. Off by 0.003 at most for the steepest dielectrics; by 0.01 where cosθ is
-// below 0.2, by 0.05 below 0.03.
+// The mean over some points of 1 - max R(θ), [0,1], by the cosine of the viewing direction. R is the directional albedo
+// of the specular layers, its largest channel (trace/albedo.h). The table's nodes are even in (1 - cosθ)², because R
+// rises at grazing angles. The error is 0.003 at most for the steepest dielectrics, 0.01 where cosθ < 0.2, and 0.05
+// where cosθ < 0.03.
 class DiffuseShare {
  public:
-  DiffuseShare() { share_.fill(kOne); }  // nothing is specular
+  DiffuseShare() { share_.fill(kOne); }  // no specular layer
   explicit DiffuseShare(std::span<const ShadePoint> points);
 
   float at(float cosine) const {

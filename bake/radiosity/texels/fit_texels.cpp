@@ -5,14 +5,14 @@
 namespace oriel {
 namespace {
 
-constexpr int kIterations = 8;    // what is left of the finest pattern: (3/4)^8, a tenth
+constexpr int kIterations = 8;    // the finest pattern is left at (3/4)^8, a tenth
 constexpr float kWhole = 0.999f;  // of a texel's square
 constexpr float kNoiseGate = 2;   // standard errors
 constexpr std::uint32_t kNone = ~0u;
 
 constexpr std::array<std::array<int, 2>, 8> kAround = {
     {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
-// Shares that interpolation over a texel's square has of those around it.
+// Weights of the texels around one in the mean of the interpolation over its square.
 constexpr std::array<float, 8> kShare = {6.f / 64, 6.f / 64, 6.f / 64, 6.f / 64,
                                          1.f / 64, 1.f / 64, 1.f / 64, 1.f / 64};
 

@@ -7,7 +7,7 @@ namespace oriel {
 
 FrameError::FrameError(std::span<const FramePixel> pixels, std::span<const TexelMapPage> map,
                        const std::vector<bool>& has_light)
-    : shares_(has_light.size()) {
+    : importance_(has_light.size()) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::vector<std::uint32_t>> number;  // by page and y * width + x
   std::uint32_t next = 0;
@@ -29,7 +29,7 @@ FrameError::FrameError(std::span<const FramePixel> pixels, std::span<const Texel
   }
   for (const FramePixel& pixel : pixels_)
     for (std::size_t k = 0; k < pixel.texel.size(); ++k)
-      shares_[pixel.texel[k]] += pixel.share[k] / static_cast<float>(pixels_.size());
+      importance_[pixel.texel[k]] += pixel.share[k] / static_cast<float>(pixels_.size());
 }
 
 std::vector<float> FrameError::squares(std::span<const Vec3> light, std::span<const Vec3> variance) const {
@@ -38,7 +38,7 @@ std::vector<float> FrameError::squares(std::span<const Vec3> light, std::span<co
     for (std::size_t k = 0; k < pixel.texel.size(); ++k) sum += double{pixel.share[k]} * DVec3(of[pixel.texel[k]]);
     return sum;
   };
-  std::vector<float> squares(shares_.size());
+  std::vector<float> squares(importance_.size());
   const std::vector<DVec3> floors2 =
       frame_floors2(pixels_, [&](std::size_t i) { return DVec3(pixels_[i].transfer) * mixed(pixels_[i], light); });
   for (const FramePixel& pixel : pixels_) {
@@ -47,7 +47,7 @@ std::vector<float> FrameError::squares(std::span<const Vec3> light, std::span<co
     for (std::size_t k = 0; k < pixel.texel.size(); ++k) {
       const DVec3 error2 = transfer * transfer * DVec3(variance[pixel.texel[k]]);
       squares[pixel.texel[k]] += static_cast<float>(
-          pixel.share[k] * relative_square(error2, light2, floors2[pixel.eye]) / static_cast<double>(pixels_.size()));
+          pixel.share[k] * relative_square(error2, light2, floors2[pixel.view]) / static_cast<double>(pixels_.size()));
     }
   }
   return squares;

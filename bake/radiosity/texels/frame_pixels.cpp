@@ -11,7 +11,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kChords = 8;  // from which an eye in the open is drawn
+constexpr std::uint32_t kChordsAView = 8;  // of which one is chosen for each view
 
 // Fills in what bilinear filtering reads at the pixel's point.
 void read_texels(const Atlas& atlas, FramePixel& pixel) {
@@ -33,7 +33,7 @@ class Follower {
  public:
   Follower(const Transport& transport, const Atlas& atlas) : t_(transport), atlas_(atlas) {}
 
-  std::optional<FramePixel> follow(Ray ray, std::uint32_t eye, Sampler& sampler) const {
+  std::optional<FramePixel> follow(Ray ray, std::uint32_t view, Sampler& sampler) const {
     const Scene& scene = t_.accel.scene();
     Vec3 through(1);
     bool mirrored = false;
@@ -58,7 +58,7 @@ class Follower {
       const Vec3 diffuse = surface.shade.diffuse * (1 - specular);
       if (max_component(diffuse) > 0 && (mirrored || specular <= max_component(diffuse))) {
         if (atlas_.page[hit.triangle] < 0) return std::nullopt;
-        FramePixel pixel{eye, hit.triangle, hit.barycentric, through * diffuse / kPi, {}};
+        FramePixel pixel{view, hit.triangle, hit.barycentric, through * diffuse / kPi, {}};
         if (surface.emits) pixel.emitted = through * surface.shade.emission;
         pixel.page = static_cast<std::uint32_t>(atlas_.page[hit.triangle]);
         read_texels(atlas_, pixel);
@@ -78,7 +78,7 @@ class Follower {
   const Atlas& atlas_;
 };
 
-// The scene's box; what has no height has air above it.
+// The scene's bounding box; a flat scene gets air on both sides.
 class Box {
  public:
   explicit Box(const Scene& scene) : lower_(scene.lower), upper_(scene.upper) {
@@ -86,7 +86,7 @@ class Box {
     for (int i = 0; i < 3; ++i)
       if (upper_[i] - lower_[i] < kFlat * size) lower_[i] -= size / 2, upper_[i] += size / 2;
   }
-  // Of the part of a ray that lies in it.
+  // The length of the part of a ray inside the box.
   float length_of(const Ray& ray) const {
     float length = std::numeric_limits<float>::max();
     for (int i = 0; i < 3; ++i) {
@@ -103,16 +103,16 @@ class Box {
 
 }  // namespace
 
-Result<std::vector<FramePixel>> find_frame_pixels(const Transport& transport, const Atlas& atlas, const FrameEyes& from,
-                                                  std::uint64_t seed, Context& context) {
-  const auto& [eyes, per_eye] = from;
+Result<std::vector<FramePixel>> find_frame_pixels(const Transport& transport, const Atlas& atlas,
+                                                  const FrameViews& from, std::uint64_t seed, Context& context) {
+  const auto& [views, directions_per_view] = from;
   const Follower follower(transport, atlas);
-  std::vector<std::optional<FramePixel>> found(eyes.size() * per_eye);
-  ORIEL_TRY_VOID(parallel_for(context, "", eyes.size(), [&](std::size_t e) {
-    for (std::uint32_t k = 0; k < per_eye; ++k) {
+  std::vector<std::optional<FramePixel>> found(views.size() * directions_per_view);
+  ORIEL_TRY_VOID(parallel_for(context, "", views.size(), [&](std::size_t e) {
+    for (std::uint32_t k = 0; k < directions_per_view; ++k) {
       Sampler sampler(seed, e, k);
       const Vec3 direction = square_to_sphere(sampler.next2());
-      found[k * eyes.size() + e] = follower.follow({eyes[e], direction}, static_cast<std::uint32_t>(e), sampler);
+      found[k * views.size() + e] = follower.follow({views[e], direction}, static_cast<std::uint32_t>(e), sampler);
     }
   }));
   std::vector<FramePixel> pixels;
@@ -121,7 +121,7 @@ Result<std::vector<FramePixel>> find_frame_pixels(const Transport& transport, co
   return pixels;
 }
 
-std::vector<Vec3> eyes_in_the_open(const Transport& transport, std::uint32_t count, std::uint64_t seed) {
+std::vector<Vec3> sample_view_positions(const Transport& transport, std::uint32_t count, std::uint64_t seed) {
   const Scene& scene = transport.accel.scene();
   std::vector<double> area(scene.triangles.size());
   double all = 0;
@@ -135,7 +135,7 @@ std::vector<Vec3> eyes_in_the_open(const Transport& transport, std::uint32_t cou
   };
   std::vector<Chord> chords;
   double sum = 0;
-  for (std::uint32_t i = 0; i < kChords * count; ++i) {
+  for (std::uint32_t i = 0; i < kChordsAView * count; ++i) {
     Sampler sampler(seed, 0, i);
     const auto found = std::upper_bound(area.begin(), area.end(), sampler.next1() * all);
     const auto triangle = static_cast<std::uint32_t>(
@@ -148,16 +148,16 @@ std::vector<Vec3> eyes_in_the_open(const Transport& transport, std::uint32_t cou
     const float length = hit ? hit.distance : air.length_of(ray);
     chords.push_back({ray.origin, direction, length, sum += length});
   }
-  std::vector<Vec3> eyes;
+  std::vector<Vec3> views;
   for (std::uint32_t i = 0; i < count && sum > 0; ++i) {
     Sampler sampler(seed, 1, i);
     const double at = (i + sampler.next1()) / count * sum;
     const auto chord = std::min(
         std::upper_bound(chords.begin(), chords.end(), at, [](double value, const Chord& c) { return value < c.sum; }),
         chords.end() - 1);
-    eyes.push_back(chord->from + sampler.next1() * chord->length * chord->direction);
+    views.push_back(chord->from + sampler.next1() * chord->length * chord->direction);
   }
-  return eyes;
+  return views;
 }
 
 }  // namespace oriel

@@ -1,4 +1,4 @@
-// A scene whose lightmap is laid out.
+// A scene with its lightmap layout.
 #pragma once
 
 #include "bake/atlas/texel_map.h"
@@ -6,7 +6,7 @@
 
 namespace oriel {
 
-// All of it outlives who is given it.
+// The references must outlive all that uses this.
 struct LightmapScene {
   const Transport& transport;
   const Atlas& atlas;

@@ -28,8 +28,8 @@ class NeighbourFinder {
     size_.resize(texels.count());
     for (std::size_t i = 0; i < texels.count(); ++i) {
       Vec3 sum(0);
-      for (const TexelSite& site : texels.site[i]) sum += site.origin;
-      position_[i] = sum / static_cast<float>(kSites);
+      for (const SamplePoint& point : texels.sample_points[i]) sum += point.origin;
+      position_[i] = sum / static_cast<float>(kSamplePoints);
       size_[i] = std::sqrt(texels.area_m2[i]);
     }
     // Partly covered texels are smaller than the grid: neighbours stand a whole texel apart.
@@ -72,7 +72,7 @@ class NeighbourFinder {
   }
 
  private:
-  const Vec3& normal(std::uint32_t i) const { return texels_.site[i][0].geometric_normal; }
+  const Vec3& normal(std::uint32_t i) const { return texels_.sample_points[i][0].geometric_normal; }
   Vec3 lifted(std::uint32_t i) const { return position_[i] + normal(i) * (kLift * size_[i]); }
   float distance2(std::uint32_t a, std::uint32_t b) const { return length2(position_[b] - position_[a]); }
 
@@ -119,7 +119,7 @@ class NeighbourFinder {
   const Texels& texels_;
   std::vector<Vec3> position_;
   std::vector<float> size_;  // side of a texel of its chart, metres
-  Rims rims_;                // how far texels at the rim of their chart reach: sizes span orders of magnitude
+  Rims rims_;                // boxes within reach of the texels at chart rims: their sizes span orders of magnitude
 };
 
 void link(TexelGraph& graph, std::uint32_t a, std::uint32_t b) {
@@ -153,7 +153,7 @@ Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& tex
   TexelGraph graph;
   graph.neighbour.resize(texels.count());
   graph.count.assign(texels.count(), 0);
-  // On the page first: pairs across charts take the places that are left.
+  // Pairs within a chart come first; pairs across charts take the remaining places.
   for (const bool across : {false, true})
     for (const auto& pairs : free)
       for (const Candidate& c : pairs)

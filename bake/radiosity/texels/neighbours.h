@@ -1,4 +1,4 @@
-// Which texels lie side by side on the same surface, in the world: across charts and objects, never through walls.
+// Adjacency of texels on a surface in the world: across charts and objects, never through walls.
 #pragma once
 
 #include "bake/radiosity/texels/texels.h"
@@ -14,13 +14,14 @@ struct TexelGraph {
   std::span<const std::uint32_t> of(std::size_t i) const { return {neighbour[i].data(), count[i]}; }
 };
 
-// Neighbours lie within about one and a half texels of each other, look the same way (within about 25°), lie in each
-// other's plane, and see each other just above the surface: a thin wall standing between them parts them. Charts' edges
-// are joined to what continues the surface. Error kStopped.
+// Two texels are neighbours if they lie within about 1.6 texels of each other, if their normals agree within about 25°,
+// if each lies in the other's plane, and if a segment just above the surface joins them: a thin wall between them
+// separates them. At chart edges the graph goes on across seams. Error kStopped.
 Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& texels, const Stage& stage);
 
-// And those that lie beside a texel on its chart, whichever way they look, where it has places left: the flutes of a
-// column, whose light differs, though not who sees them and what it takes to light them.
+// The same graph with the adjacent texels of each chart added, whatever their normals, while a texel has fewer than
+// kMaxNeighbours. An example are the flutes of a column: their light differs, but not who sees them, nor the effort to
+// light them.
 TexelGraph with_chart_neighbours(TexelGraph graph, const Texels& texels);
 
 }  // namespace oriel

@@ -10,10 +10,10 @@
 namespace oriel {
 namespace {
 
-constexpr float kPartLift = 0.1f;      // of a texel's side
-constexpr float kFarEnd = 1.45f;       // of the texel beside: what parts them may stand on that one
-constexpr std::uint32_t kLooks = 16;   // whether the sky is around
-constexpr std::uint32_t kPoints = 32;  // among which the sides of a wall are weighed
+constexpr float kPartLift = 0.1f;  // of a texel's side
+constexpr float kFarEnd = 1.45f;   // steps to the far end of the neighbour: the wall between the two may stand on it
+constexpr std::uint32_t kSkyRays = 16;  // that test for the sky
+constexpr std::uint32_t kPoints = 32;   // by which the sides of a wall are compared
 
 // The corners of a texel in the plane of its largest fragment, in turn; nothing where that has no area on the page.
 std::optional<std::array<Vec3, 4>> corners_of(const Scene& scene, const PageTexel& place) {
@@ -39,8 +39,7 @@ std::optional<std::array<Vec3, 4>> corners_of(const Scene& scene, const PageTexe
 
 }  // namespace
 
-TexelPart::TexelPart(const Transport& transport, const PageTexel& place, const Onlookers& onlookers,
-                     std::uint64_t& rays)
+TexelPart::TexelPart(const Transport& transport, const PageTexel& place, const ViewSamples& views, std::uint64_t& rays)
     : accel_(transport.accel) {
   const Scene& scene = accel_.scene();
   const TexelMapPage& map = place.map;
@@ -57,11 +56,11 @@ TexelPart::TexelPart(const Transport& transport, const PageTexel& place, const O
     return is_buried(transport, p, {~seeds::kWalls, map.texel[texel], k}, rays);
   };
   const SurfacePoint middle = point(Vec3(0.5f));
-  if (transport.lights.power() != DVec3(0)) look_for_lamp(*corners, middle.geometric_normal, rays);
+  if (transport.lights.power() != DVec3(0)) find_lamp(*corners, middle.geometric_normal, rays);
   const Vec3 up = lift_ * middle.geometric_normal;
   if (is_free((*corners)[0] + up, (*corners)[2] + up, rays) && is_free((*corners)[1] + up, (*corners)[3] + up, rays) &&
       !is_covered(middle, kPoints)) {
-    if (const auto beyond = seen_beyond(place, {*corners, middle.geometric_normal}, onlookers, rays))
+    if (const auto beyond = visible_beyond(place, {*corners, middle.geometric_normal}, views, rays))
       anchors_ = {*beyond};
     return;
   }
@@ -77,11 +76,11 @@ TexelPart::TexelPart(const Transport& transport, const PageTexel& place, const O
   }
   covered_ = any && left.empty();
   std::vector<Side> sides;
-  while (!left.empty()) sides.push_back(take_side(left, rays));
-  Onlookers::Nearest eyes;
+  while (!left.empty()) sides.push_back(extract_side(left, rays));
+  ViewSamples::Nearest eyes;
   for (Side& side : sides)
     for (const Vec3& p : side.points)
-      side.seen += sides.size() > 1 && onlookers.any() && onlookers.in_sight(p, middle.geometric_normal, eyes, rays);
+      side.seen += sides.size() > 1 && views.any() && views.in_sight(p, middle.geometric_normal, eyes, rays);
   Side best;
   for (Side& side : sides)
     if (side.is_before(best)) best = std::move(side);
@@ -94,9 +93,9 @@ bool TexelPart::is_under_lamp(const Vec3& p, const Vec3& up, float reach_m, std:
   return hit && is_lamp(accel_.scene(), hit.triangle, hit.front);
 }
 
-std::optional<Vec3> TexelPart::seen_beyond(const PageTexel& place, const Square& square, const Onlookers& onlookers,
-                                           std::uint64_t& rays) const {
-  if (!onlookers.any()) return std::nullopt;
+std::optional<Vec3> TexelPart::visible_beyond(const PageTexel& place, const Square& square, const ViewSamples& views,
+                                              std::uint64_t& rays) const {
+  if (!views.any()) return std::nullopt;
   const Atlas& atlas = place.atlas;
   const TexelMapPage& map = place.map;
   const std::size_t texel = place.texel;
@@ -106,15 +105,15 @@ std::optional<Vec3> TexelPart::seen_beyond(const PageTexel& place, const Square&
   const auto chart = [&](std::size_t i) { return atlas.chart[map.fragments[map.first[i]].triangle]; };
   const IVec2 at(map.texel[texel] % map.width, map.texel[texel] / map.width);
   for (const IVec2& step : {IVec2(1, 0), IVec2(-1, 0), IVec2(0, 1), IVec2(0, -1)}) {
-    const IVec2 beside = at + step;
-    if (std::min(beside.x, beside.y) < 0 || beside.x >= static_cast<int>(map.width)) continue;
-    const auto number = static_cast<std::uint32_t>(beside.y) * map.width + static_cast<std::uint32_t>(beside.x);
+    const IVec2 neighbour = at + step;
+    if (std::min(neighbour.x, neighbour.y) < 0 || neighbour.x >= static_cast<int>(map.width)) continue;
+    const auto number = static_cast<std::uint32_t>(neighbour.y) * map.width + static_cast<std::uint32_t>(neighbour.x);
     const auto found = std::ranges::lower_bound(map.texel, number);
     if (found == map.texel.end() || *found != number) continue;
     if (chart(static_cast<std::size_t>(found - map.texel.begin())) != chart(texel)) continue;
     const Vec3 there = middle + kFarEnd * (static_cast<float>(step.x) * u + static_cast<float>(step.y) * v);
-    if (is_free(middle, there, rays) || !onlookers.in_sight_of_any(there, normal, rays)) continue;
-    if (onlookers.in_sight_of_any(middle, normal, rays) || !is_outdoors(middle, normal, rays)) return std::nullopt;
+    if (is_free(middle, there, rays) || !views.in_sight_of_any(there, normal, rays)) continue;
+    if (views.in_sight_of_any(middle, normal, rays) || !is_outdoors(middle, normal, rays)) return std::nullopt;
     return there;
   }
   return std::nullopt;
@@ -124,16 +123,16 @@ bool TexelPart::is_outdoors(const Vec3& point, const Vec3& normal, std::uint64_t
   const Mat3 frame = frame_from_normal(normal);
   Sampler sampler(seeds::kWalls, 0, 0);
   std::uint32_t escaped = 0;
-  for (std::uint32_t k = 0; k < kLooks; ++k) {
+  for (std::uint32_t k = 0; k < kSkyRays; ++k) {
     const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
     escaped += !accel_.intersect({point, direction});
   }
-  rays += kLooks;
-  return 4 * escaped >= kLooks;
+  rays += kSkyRays;
+  return 4 * escaped >= kSkyRays;
 }
 
-// The corners tell whether a lamp hangs over a part of the texel.
-void TexelPart::look_for_lamp(const std::array<Vec3, 4>& corners, const Vec3& up, std::uint64_t& rays) {
+// A lamp hangs over part of the texel if it does over some of the corners.
+void TexelPart::find_lamp(const std::array<Vec3, 4>& corners, const Vec3& up, std::uint64_t& rays) {
   const Vec3 u = corners[1] - corners[0], v = corners[3] - corners[0];
   const float reach = std::min(kGapReach_m, kGapTexels * std::sqrt(glm::length(glm::cross(u, v))));
   const auto under = [&](const Vec3& p) { return is_under_lamp(p, up, reach, rays); };
@@ -149,7 +148,7 @@ void TexelPart::look_for_lamp(const std::array<Vec3, 4>& corners, const Vec3& up
 }
 
 // Points that see one another, directly or by way of others (around a corner of the wall), stand on one side.
-TexelPart::Side TexelPart::take_side(std::vector<Vec3>& left, std::uint64_t& rays) const {
+TexelPart::Side TexelPart::extract_side(std::vector<Vec3>& left, std::uint64_t& rays) const {
   Side side;
   std::vector<Vec3> reached{left.back()};
   left.pop_back();
@@ -173,10 +172,10 @@ bool TexelPart::holds(std::uint32_t triangle, const Vec2& barycentric, std::uint
   return std::any_of(anchors_.begin(), anchors_.end(), [&](const Vec3& a) { return is_free(a, point, rays); });
 }
 
-bool TexelPart::is_beside(const Vec3& site, std::uint32_t triangle, const Vec2& barycentric,
-                          std::uint64_t& rays) const {
+bool TexelPart::is_visible_from(const Vec3& from, std::uint32_t triangle, const Vec2& barycentric,
+                                std::uint64_t& rays) const {
   const SurfacePoint on = point_on_side(accel_.scene(), triangle, barycentric);
-  return is_free(site + lift_ * on.geometric_normal, lifted(on), rays);
+  return is_free(from + lift_ * on.geometric_normal, lifted(on), rays);
 }
 
 Vec3 TexelPart::lifted(const SurfacePoint& point) const {

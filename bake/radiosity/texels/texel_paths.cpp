@@ -9,7 +9,7 @@ void TexelPaths::add(const MapTexel& texel, const PathNumbers& paths, TexelSums&
   const TexelMapPage& map = scene_.map[texel.page];
   const std::uint64_t stream = static_cast<std::uint64_t>(texel.page) << 32 | map.texel[texel.index];
   const bool mixed = any_buried(texel, stream, rays);
-  const TexelPart part(t_, {scene_.atlas, map, texel.index}, Onlookers(t_, eyes_), rays);
+  const TexelPart part(t_, {scene_.atlas, map, texel.index}, ViewSamples(t_, eyes_), rays);
   if (part.covered()) return;
   for (std::uint32_t k = paths.first; k < paths.end; ++k) {
     if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
@@ -28,8 +28,8 @@ SurfacePoint TexelPaths::point_of(const MapTexel& texel, const Vec3& u) const {
   return point_on_side(t_.accel.scene(), point.triangle, point.barycentric);
 }
 
-// Whether some of 64 points spread over the texel are buried: only then every path asks for its own point. Most texels
-// answer with one ray a point.
+// True if one of 64 points spread over the texel is buried: only then does every path test its own point. Most texels
+// take one ray a point.
 bool TexelPaths::any_buried(const MapTexel& texel, std::uint64_t stream, std::uint64_t& rays) const {
   for (std::uint32_t k = 0; k < 64; ++k) {
     Sampler sampler(~seed_, stream, k);

@@ -1,4 +1,4 @@
-// Unbiased paths from the points of a texel.
+// Unbiased path tracing from the sample points of a texel.
 #pragma once
 
 #include "bake/jobs/context.h"
@@ -7,12 +7,12 @@
 
 namespace oriel {
 
-// What the paths of one texel or point found, lux.
+// Moments of the path samples of one texel or point, lux.
 struct TexelSums {
   DVec3 sum{0}, squares{0};
-  DVec3 vector{0};  // of luminance, as IrradianceSample's
+  DVec3 vector{0};  // first moment of luminance, as in IrradianceSample
   double mean = 0;
-  std::uint32_t count = 0;  // paths; fewer than asked where points are buried
+  std::uint32_t count = 0;  // paths; fewer than requested where points are buried
 
   void add(const IrradianceSample& e) {
     const DVec3 value(e.direct + e.indirect);
@@ -23,8 +23,8 @@ struct TexelSums {
     ++count;
   }
   DVec3 irradiance() const { return count > 0 ? sum / double(count) : DVec3(0); }
-  // Squared standard error of irradiance(). One path says nothing of its spread: its error is taken to be as large as
-  // itself.
+  // The squared standard error of irradiance(), lux². For a single path, whose spread is unknown, it is the square of
+  // the value.
   DVec3 variance() const {
     const DVec3 m = irradiance();
     if (count < 2) return m * m;
@@ -36,23 +36,24 @@ inline void fields(Archive& archive, TexelSums& s) {
   archive(s.sum, s.squares, s.vector, s.mean, s.count);
 }
 
-// A texel of the map: of a page the index into TexelMapPage::texel.
+// A texel of the map: a page and an index into its TexelMapPage::texel.
 struct MapTexel {
   std::size_t page = 0, index = 0;
 };
+// A range of path numbers, `end` excluded.
 struct PathNumbers {
   std::uint32_t first = 0, end = 0;
 };
 
 class TexelPaths {
  public:
-  // directional: sample so that IrradianceSample's moments are known, too. eyes: as list_texels().
+  // directional: fill IrradianceSample's moments, too. eyes: as in list_texels().
   TexelPaths(const LightmapScene& scene, std::span<const Vec3> eyes, bool directional, std::uint64_t seed,
              const Context& context)
       : t_(scene.transport), scene_(scene), eyes_(eyes), directional_(directional), seed_(seed), context_(context) {}
 
-  // So many paths of a texel, numbered from `first`. Points inside other geometry (independent probes meet little but
-  // back faces of one-sided materials) are left out, and so is what a thin wall cuts off the texel. Adds to rays.
+  // Adds the paths of that range to `sums`, and their rays to `rays`. A path whose point is inside other geometry
+  // (is_buried) or outside the texel's part (TexelPart) is left out.
   void add(const MapTexel& texel, const PathNumbers& paths, TexelSums& sums, std::uint64_t& rays) const;
 
  private:

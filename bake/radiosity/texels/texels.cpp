@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "bake/jobs/units.h"
-#include "bake/radiosity/texels/more_sites.h"
+#include "bake/radiosity/texels/extra_sample_points.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/scene/shade.h"
 #include "bake/trace/buried.h"
-#include "bake/trace/onlookers.h"
+#include "bake/trace/view_samples.h"
 #include "bake/trace/warp.h"
 
 namespace oriel {
@@ -16,89 +16,89 @@ namespace {
 
 constexpr std::size_t kRun = 256;      // texels a task
 constexpr double kRaysATexel = 32;     // about
-constexpr std::uint32_t kColored = 2;  // sites of a half whose albedo is averaged
-// Where a texel is partly buried: tried at least and at most, and those not buried that are enough.
-constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kManySites = 32;
-constexpr std::size_t kSparse = 16;        // places of a page for each of its texels: more are not tabulated
+constexpr std::uint32_t kColored = 2;  // sample points of a half whose albedo is averaged
+// Points of a partly buried texel: tried at least, tried at most, and unburied ones that suffice.
+constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kEnoughSamplePoints = 32;
+constexpr std::size_t kSparse = 16;        // pixels of a page for each of its texels: a sparser page has no table
 constexpr std::uint32_t kFewPoints = 16;   // tried where a texel lies under another body
 constexpr std::uint32_t kNearPoints = 32;  // tried where a texel is whole, but something is close to it
 
-class SiteFinder {
+class SamplePointFinder {
  public:
-  SiteFinder(const LightmapScene& scene, const TexelUse& use, std::uint64_t seed)
+  SamplePointFinder(const LightmapScene& scene, const TexelUse& use, std::uint64_t seed)
       : scene_(scene),
         t_(scene.transport),
-        met_(use.met),
-        fewer_(use.fewer),
-        onlookers_(scene.transport, use.eyes),
+        hit_by_rays_(use.hit_by_rays),
+        point_divisor_(use.point_divisor),
+        views_(scene.transport, use.eyes),
         seed_(seed) {}
 
   struct Found {
-    TexelPart part;  // what a wall leaves of the texel
-    std::array<std::vector<TexelSite>, kHalves> many;
+    TexelPart part;  // the part that is sampled
+    std::array<std::vector<SamplePoint>, kHalves> points;
   };
 
   Found find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
     const std::uint64_t stream = stream_of(texels, i);
     std::vector<ShadePoint> shade;
     int buried = 0;
-    bool crowded = false;
-    for (int k = 0; k < kSites; ++k) {
-      const auto turn = static_cast<std::uint32_t>(k % kSitesPerHalf);
-      const SurfacePoint surface = candidate(texels, i, k / kSitesPerHalf, turn);
-      texels.site[i][k] = site_of(surface);
+    bool near_occluder = false;
+    for (int k = 0; k < kSamplePoints; ++k) {
+      const auto turn = static_cast<std::uint32_t>(k % kSamplePointsPerHalf);
+      const SurfacePoint surface = candidate(texels, i, k / kSamplePointsPerHalf, turn);
+      texels.sample_points[i][k] = sample_point_of(surface);
       buried += is_buried(t_, surface, {seed_, stream, static_cast<std::uint32_t>(k)}, rays);
-      crowded = crowded || meets_near(texels, i, k, stream, rays);
-      if (met_ && turn < kColored) shade.push_back(shade_at(surface));
+      near_occluder = near_occluder || hits_near_occluder(texels, i, k, stream, rays);
+      if (hit_by_rays_ && turn < kColored) shade.push_back(shade_at(surface));
     }
-    keep_means(shade, texels, i);
+    set_means(shade, texels, i);
     texels.visible[i] = 1;
-    Found found{TexelPart(t_, {scene_.atlas, scene_.map[texels.page[i]], texels.index[i]}, onlookers_, rays), {}};
+    Found found{TexelPart(t_, {scene_.atlas, scene_.map[texels.page[i]], texels.index[i]}, views_, rays), {}};
     if (found.part.covered())
       find_unburied(texels, i, kFewPoints, found, rays);
     else if (buried > 0 || !found.part.whole())
       find_unburied(texels, i, kManyPoints, found, rays);
-    else if (crowded)
+    else if (near_occluder)
       find_unburied(texels, i, kNearPoints, found, rays);
     return found;
   }
 
-  // Again, with many points: their share, and those that are left.
-  void find_unburied(Texels& texels, std::size_t i, std::uint32_t points, Found& found, std::uint64_t& rays) const {
+  // Samples the texel again with many points: sets its visible fraction and keeps the visible points.
+  void find_unburied(Texels& texels, std::size_t i, std::uint32_t point_count, Found& found,
+                     std::uint64_t& rays) const {
     const std::uint64_t stream = stream_of(texels, i);
     std::vector<ShadePoint> shade;
-    const std::uint32_t most = kMostPoints / fewer_, enough_sites = kManySites / fewer_;
+    const std::uint32_t most = kMostPoints / point_divisor_, enough_points = kEnoughSamplePoints / point_divisor_;
     std::uint32_t tried = 0, total = 0;
     bool in_sight = false;
-    Onlookers::Nearest eyes;
-    // A handful of points that escaped the probes do not make a texel visible, nor do any under another body: somebody
-    // who sees one does.
+    ViewSamples::Nearest eyes;
+    // A texel is visible if a sixteenth of the points are and no body covers it, or if a view sees one of its points.
     const auto enough = [&] {
-      const bool many = total * 16 >= tried && !found.part.covered();
-      return (many || in_sight) && !found.many[0].empty() && !found.many[1].empty();
+      const bool share_is_enough = total * 16 >= tried && !found.part.covered();
+      return (share_is_enough || in_sight) && !found.points[0].empty() && !found.points[1].empty();
     };
-    for (; tried < points / fewer_ || (tried < most && total < enough_sites && enough()); ++tried) {
+    for (; tried < point_count / point_divisor_ || (tried < most && total < enough_points && enough()); ++tried) {
       const std::uint32_t k = tried;
       const int half = static_cast<int>(k % kHalves);
       const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
-      if (is_buried(t_, surface, {seed_, stream, kSites + k}, rays) ||
+      if (is_buried(t_, surface, {seed_, stream, kSamplePoints + k}, rays) ||
           !found.part.holds(surface.triangle, surface.barycentric, rays) ||
-          !onlookers_.see(surface, texels.gap_reach(i), {seed_, stream, k}, eyes, rays))
+          !views_.sees(surface, texels.gap_reach(i), {seed_, stream, k}, eyes, rays))
         continue;
       const bool ask = found.part.covered() || (!in_sight && (total + 1) * 16 <= tried);
-      const bool seen = ask && onlookers_.any() && sees(surface, eyes, rays);
+      const bool seen = ask && views_.any() && sees(surface, eyes, rays);
       if (found.part.covered() && !seen) continue;
       in_sight = in_sight || seen;
-      if (met_) shade.push_back(shade_at(surface));
-      found.many[half].push_back(site_of(surface));
+      if (hit_by_rays_) shade.push_back(shade_at(surface));
+      found.points[half].push_back(sample_point_of(surface));
       ++total;
     }
     texels.visible[i] = enough() ? static_cast<float>(total) / static_cast<float>(tried) : 0.0f;
-    keep_means(shade, texels, i);
-    if (!enough()) found.many = {};
-    for (std::size_t k = 0; enough() && k < kSites; ++k) {
-      const auto& many = found.many[k / kSitesPerHalf];
-      texels.site[i][k] = many[k % kSitesPerHalf % many.size()];
+    set_means(shade, texels, i);
+    if (!enough()) found.points = {};
+    for (std::size_t k = 0; enough() && k < kSamplePoints; ++k) {
+      const auto& points = found.points[k / kSamplePointsPerHalf];
+      texels.sample_points[i][k] = points[k % kSamplePointsPerHalf % points.size()];
     }
   }
 
@@ -109,11 +109,11 @@ class SiteFinder {
   SurfacePoint candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
     return texel_candidate(scene_, texels, {i, half, k}, seed_);
   }
-  bool sees(const SurfacePoint& s, Onlookers::Nearest& eyes, std::uint64_t& rays) const {
-    return onlookers_.in_sight(spawn_origin(s, s.geometric_normal), s.geometric_normal, eyes, rays);
+  bool sees(const SurfacePoint& s, ViewSamples::Nearest& eyes, std::uint64_t& rays) const {
+    return views_.in_sight(spawn_origin(s, s.geometric_normal), s.geometric_normal, eyes, rays);
   }
   ShadePoint shade_at(const SurfacePoint& s) const { return shade_point(t_.accel.scene(), s.triangle, s.barycentric); }
-  static void keep_means(std::span<const ShadePoint> points, Texels& texels, std::size_t i) {
+  static void set_means(std::span<const ShadePoint> points, Texels& texels, std::size_t i) {
     if (points.empty()) return;
     Vec3 albedo(0);
     for (const ShadePoint& point : points) albedo += point.diffuse;
@@ -121,21 +121,21 @@ class SiteFinder {
     texels.diffuse_share[i] = DiffuseShare(points);
   }
 
-  // Whether a ray from a site finds something nearer than a texel's side.
-  bool meets_near(const Texels& texels, std::size_t i, int k, std::uint64_t stream, std::uint64_t& rays) const {
-    Sampler sampler(seed_ + seeds::kCrowded, stream, static_cast<std::uint32_t>(k));
-    const TexelSite& site = texels.site[i][k];
+  // True if a ray from a sample point meets something within a texel's side.
+  bool hits_near_occluder(const Texels& texels, std::size_t i, int k, std::uint64_t stream, std::uint64_t& rays) const {
+    Sampler sampler(seed_ + seeds::kOccluderRays, stream, static_cast<std::uint32_t>(k));
+    const SamplePoint& point = texels.sample_points[i][k];
     const Vec3 direction =
-        glm::normalize(frame_from_normal(site.geometric_normal) * square_to_cosine_hemisphere(sampler.next2()));
+        glm::normalize(frame_from_normal(point.geometric_normal) * square_to_cosine_hemisphere(sampler.next2()));
     ++rays;
-    return bool(t_.accel.intersect({site.origin, direction, std::sqrt(texels.area_m2[i])}));
+    return bool(t_.accel.intersect({point.origin, direction, std::sqrt(texels.area_m2[i])}));
   }
 
   LightmapScene scene_;
   const Transport& t_;
-  bool met_;
-  std::uint32_t fewer_;
-  Onlookers onlookers_;
+  bool hit_by_rays_;
+  std::uint32_t point_divisor_;
+  ViewSamples views_;
   std::uint64_t seed_;
 };
 
@@ -149,7 +149,7 @@ void place_triangles(const Atlas& atlas, Texels& texels) {
   }
 }
 
-// Their pages and where they lie on these; nothing else of them.
+// Fills pages and places of the texels, and nothing else.
 Texels place_texels(const Atlas& atlas, std::span<const TexelMapPage> texel_map) {
   Texels texels;
   for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
@@ -223,22 +223,24 @@ bool Texels::parts(std::uint32_t triangle, const Vec2& b) const {
   return texel != kNoTexel && is_cut[texel] && !cut.at(texel).holds(triangle, b, rays);
 }
 
-std::uint32_t Texels::beside(std::uint32_t texel, const IVec2& step) const {
+std::uint32_t Texels::chart_neighbour(std::uint32_t texel, const IVec2& step) const {
   const std::uint32_t found = at(page[texel], static_cast<int>(x[texel]) + step.x, static_cast<int>(y[texel]) + step.y);
   return found != kNoTexel && chart[found] == chart[texel] ? found : texel;
 }
 
-// The texel across the border next to p, in texels of the page, if it speaks of this side of the wall. The end of a
-// board that reaches through a wall is one texel, which has the daylight: no ray indoors may find that.
+// The texel across the border nearest to p (in texels of the page), if its light is that of p's side of the wall. The
+// end of a board that reaches through a wall is one texel with daylight on it: no ray indoors may find that texel.
 std::uint32_t Texels::across_wall(std::uint32_t texel, std::uint32_t triangle, const Vec2& barycentric,
                                   const Vec2& p) const {
   const Vec2 off = p - Vec2(x[texel], y[texel]) - 0.5f;
   const bool level = std::abs(off.x) > std::abs(off.y);
-  const std::uint32_t found = beside(texel, IVec2(level ? (off.x > 0 ? 1 : -1) : 0, level ? 0 : (off.y > 0 ? 1 : -1)));
+  const std::uint32_t found =
+      chart_neighbour(texel, IVec2(level ? (off.x > 0 ? 1 : -1) : 0, level ? 0 : (off.y > 0 ? 1 : -1)));
   if (found == texel || visible[found] == 0) return kNoTexel;
   std::uint64_t rays = 0;
-  const bool speaks = is_cut[found] ? cut.at(found).holds(triangle, barycentric, rays)
-                                    : cut.at(texel).is_beside(site[found][0].origin, triangle, barycentric, rays);
+  const bool speaks = is_cut[found]
+                          ? cut.at(found).holds(triangle, barycentric, rays)
+                          : cut.at(texel).is_visible_from(sample_points[found][0].origin, triangle, barycentric, rays);
   return speaks ? found : kNoTexel;
 }
 
@@ -260,33 +262,33 @@ Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const
   Texels texels = place_texels(atlas, texel_map);
   texels.eyes.assign(use.eyes.begin(), use.eyes.end());
   const std::size_t n = texels.count();
-  texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
-      texels.diffuse_share.resize(n), texels.has_many.resize(n), texels.is_cut.resize(n);
+  texels.sample_points.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
+      texels.diffuse_share.resize(n), texels.occlusion_heavy.resize(n), texels.is_cut.resize(n);
   place_triangles(atlas, texels);
-  const SiteFinder finder(scene, {texels.eyes, use.met, use.fewer}, stage.context.seed);
-  using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
+  const SamplePointFinder finder(scene, {texels.eyes, use.hit_by_rays, use.point_divisor}, stage.context.seed);
+  using Hidden = std::pair<std::uint32_t, SamplePointFinder::Found>;
   std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
   UnitLoop loop{.stage = "texel points", .count = hidden.size(), .rays = kRun * kRaysATexel};
-  loop.inputs = [&](std::size_t run, Archive& key) { key(run, texels.eyes, use.met, use.fewer); };
+  loop.inputs = [&](std::size_t run, Archive& key) { key(run, texels.eyes, use.hit_by_rays, use.point_divisor); };
   loop.compute = [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {
       texels.area_m2[i] =
           static_cast<float>(texel_area_m2(t.accel.scene(), atlas, texel_map[texels.page[i]], texels.index[i]));
-      SiteFinder::Found found = finder.find(texels, i, traced);
-      if (texels.visible[i] != 1 || !found.many[0].empty())
+      SamplePointFinder::Found found = finder.find(texels, i, traced);
+      if (texels.visible[i] != 1 || !found.points[0].empty())
         hidden[run].emplace_back(static_cast<std::uint32_t>(i), std::move(found));
     }
     return traced;
   };
   loop.results = [&](std::size_t run, Archive& archive) {
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i)
-      archive(texels.site[i], texels.visible[i], texels.area_m2[i], texels.albedo[i], texels.diffuse_share[i]);
+      archive(texels.sample_points[i], texels.visible[i], texels.area_m2[i], texels.albedo[i], texels.diffuse_share[i]);
     std::uint64_t count = hidden[run].size();
     archive(count);
     while (hidden[run].size() < std::min<std::uint64_t>(count, kRun))
       hidden[run].push_back({0, {TexelPart(t.accel), {}}});
-    for (auto& [i, found] : hidden[run]) archive(i, found.part, found.many);
+    for (auto& [i, found] : hidden[run]) archive(i, found.part, found.points);
   };
   ORIEL_TRY_VOID(parallel_units(stage, loop));
   for (auto& run : hidden)
@@ -295,9 +297,9 @@ Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const
         texels.cut.emplace(i, found.part);
         texels.is_cut[i] = true;
       }
-      if (found.many[0].empty()) continue;
-      texels.has_many[i] = true;
-      texels.many_sites.emplace(i, std::move(found.many));
+      if (found.points[0].empty()) continue;
+      texels.occlusion_heavy[i] = true;
+      texels.extra_points.emplace(i, std::move(found.points));
     }
   return texels;
 }

@@ -1,4 +1,4 @@
-// The covered texels of all pages as one list: where light is gathered, and what a ray that hits them finds.
+// The covered texels of all pages as one list: sample points, and properties that a ray hit looks up.
 #pragma once
 
 #include <algorithm>
@@ -15,41 +15,42 @@ namespace oriel {
 
 inline constexpr std::uint32_t kNoTexel = std::numeric_limits<std::uint32_t>::max();
 
-// A point of a texel: where rays leave it (already moved off the surface), and its normals.
-struct TexelSite {
+// A sample point of a texel. Rays start at `origin`, which is offset from the surface. Normals are unit vectors.
+struct SamplePoint {
   Vec3 origin{0};
-  Vec3 normal{0, 0, 1};            // shading normal
+  Vec3 normal{0, 0, 1};            // interpolated, for shading
   Vec3 geometric_normal{0, 0, 1};  // of the real surface
 
   Receiver receiver() const { return {origin, normal, geometric_normal}; }
 };
 
-inline void fields(Archive& archive, TexelSite& site) {
-  archive(site.origin, site.normal, site.geometric_normal);
+inline void fields(Archive& archive, SamplePoint& point) {
+  archive(point.origin, point.normal, point.geometric_normal);
 }
 
-// Two halves of every texel's estimate share nothing, neither points nor directions: their difference tells the error.
+// Every estimate has two independent halves, with separate points and directions: their difference measures the error.
 inline constexpr int kHalves = 2;
-inline constexpr int kSitesPerHalf = 4;
-inline constexpr int kSites = kHalves * kSitesPerHalf;
+inline constexpr int kSamplePointsPerHalf = 4;
+inline constexpr int kSamplePoints = kHalves * kSamplePointsPerHalf;
 
 struct Texels {
-  // By texel.
-  std::vector<std::uint32_t> page, index;           // into the texel map: page, and TexelMapPage::texel[index]
-  std::vector<std::uint32_t> x, y;                  // on the page
-  std::vector<std::uint32_t> chart;                 // of Atlas
-  std::vector<std::array<TexelSite, kSites>> site;  // [half * kSitesPerHalf + k]; not buried, stratified over the texel
-  // Texels that are partly hidden, or that something stands or hangs close to: their light varies more over them, and
-  // so they have more sites, by half.
-  std::unordered_map<std::uint32_t, std::array<std::vector<TexelSite>, kHalves>> many_sites;
-  std::vector<char> has_many;  // whether it is in many_sites
-  std::vector<float> visible;  // share of the texel that is not inside other geometry nor in a gap; 0: no site
-  std::vector<float> covered;  // share of the texel that has a surface
+  // Arrays by texel.
+  std::vector<std::uint32_t> page, index;  // into the texel map: page, and TexelMapPage::texel[index]
+  std::vector<std::uint32_t> x, y;         // on the page
+  std::vector<std::uint32_t> chart;        // of Atlas
+  // At [half * kSamplePointsPerHalf + k]: not buried, stratified over the texel.
+  std::vector<std::array<SamplePoint, kSamplePoints>> sample_points;
+  // More sample points, by half, of occlusion-heavy texels: those partly hidden, or with an occluder closer than their
+  // side. Light varies more over them.
+  std::unordered_map<std::uint32_t, std::array<std::vector<SamplePoint>, kHalves>> extra_points;
+  std::vector<char> occlusion_heavy;  // true if the texel is in extra_points
+  std::vector<float> visible;         // fraction neither inside other geometry nor in a gap; 0: no sample point
+  std::vector<float> covered;         // fraction with a surface
   std::vector<float> area_m2;
   std::vector<Vec3> albedo;  // diffuse, mean over the texel
   std::vector<DiffuseShare> diffuse_share;
 
-  std::vector<Vec3> eyes;  // that points must be in sight of; none: all are (trace/onlookers.h)
+  std::vector<Vec3> eyes;  // view positions that decide visibility; none: all is visible (trace/view_samples.h)
 
   std::size_t count() const { return page.size(); }
   std::vector<bool> has_light() const {
@@ -57,54 +58,54 @@ struct Texels {
     for (const float share : visible) has.push_back(share > 0);
     return has;
   }
-  // How far a ray leaves a point that lies in no gap, m.
+  // The distance to the first hit below which a point counts as in a gap, m.
   float gap_reach(std::size_t i) const {
     return std::min(kGapReach_m, kGapTexels * std::sqrt(area_m2[i] / std::max(covered[i], 0.1f)));
   }
-  float seen(std::size_t i) const { return covered[i] * visible[i]; }  // seen_share()
+  float visible_fraction(std::size_t i) const { return covered[i] * visible[i]; }  // of the square
 
-  std::uint32_t kept_sites(std::uint32_t i, int half) const {
-    return has_many[i] ? static_cast<std::uint32_t>(many_sites.at(i)[half].size()) : kSitesPerHalf;
+  std::uint32_t sample_point_count(std::uint32_t i, int half) const {
+    return occlusion_heavy[i] ? static_cast<std::uint32_t>(extra_points.at(i)[half].size()) : kSamplePointsPerHalf;
   }
-  // The k-th site of a half, again from the first where there are no more. The texel must be visible.
-  const TexelSite& site_for(std::uint32_t i, int half, std::uint32_t k) const {
-    if (!has_many[i]) return site[i][half * kSitesPerHalf + k % kSitesPerHalf];
-    const std::vector<TexelSite>& many = many_sites.at(i)[half];
-    return many[k % many.size()];
+  // The k-th stored sample point of a half, modulo their number. The texel must be visible.
+  const SamplePoint& sample_point(std::uint32_t i, int half, std::uint32_t k) const {
+    if (!occlusion_heavy[i]) return sample_points[i][half * kSamplePointsPerHalf + k % kSamplePointsPerHalf];
+    const std::vector<SamplePoint>& points = extra_points.at(i)[half];
+    return points[k % points.size()];
   }
 
-  std::unordered_map<std::uint32_t, TexelPart> cut;  // texels on which a wall stands
-  std::vector<char> is_cut;                          // whether it is in `cut`
+  std::unordered_map<std::uint32_t, TexelPart> cut;  // texels divided by a wall
+  std::vector<char> is_cut;                          // true if the texel is in `cut`
 
-  // The texel under a point of a triangle, or the one beside it where a wall or a lamp parts it from the point;
-  // kNoTexel where it takes no lightmap, and where a wall parts that one from it too.
+  // The texel whose light applies at a point of a triangle: the texel under it, or a neighbour where a wall or a lamp
+  // separates that one from the point. kNoTexel where the triangle has no lightmap or both are separated.
   std::uint32_t find(std::uint32_t triangle, const Vec2& barycentric) const {
     return place(triangle, barycentric).texel;
   }
-  // in_lit_gap: the point lies under a lamp, its texel is beside it. From afar nothing but the gap's rim is seen, where
-  // its light ends within centimetres: no texel tells of it.
+  // in_lit_gap: the point lies under a lamp and `texel` is the one next to the gap. Its light ends within centimetres,
+  // which no texel resolves.
   struct Place {
     std::uint32_t texel = kNoTexel;
     bool in_lit_gap = false;
-    std::uint32_t lies_on = kNoTexel;  // whatever parts it
+    std::uint32_t lies_on = kNoTexel;  // the texel under the point, walls ignored
 
-    // Whether only the point itself tells its light: it has a texel, and no texel speaks of it.
-    bool is_untold() const { return in_lit_gap || (texel == kNoTexel && lies_on != kNoTexel); }
+    // True where no texel holds the point's light: a path must evaluate it.
+    bool is_unevaluated() const { return in_lit_gap || (texel == kNoTexel && lies_on != kNoTexel); }
   };
   Place place(std::uint32_t triangle, const Vec2& barycentric) const;
-  // The texel that tells of what lies under a lamp on a texel that has_lamp().
-  std::uint32_t under_lamp(std::uint32_t texel) const { return beside(texel, cut.at(texel).towards_lamp()); }
-  // How large a square metre of a triangle is on its page, in texels; 0 where it has no area or no page.
+  // The neighbour that holds the light under the lamp, for a texel whose part has_lamp().
+  std::uint32_t under_lamp(std::uint32_t texel) const { return chart_neighbour(texel, cut.at(texel).towards_lamp()); }
+  // Texel density of a triangle, texels per m²; 0 where it has no area or no page.
   float texels2_per_m2(const Scene& scene, std::uint32_t triangle) const;
-  // Whether a wall parts that point from the texel on which it lies.
+  // True if a wall separates that point from the texel under it.
   bool parts(std::uint32_t triangle, const Vec2& barycentric) const;
-  // The texel at a place of a page; kNoTexel where none is.
+  // The texel at a pixel of a page; kNoTexel without one.
   std::uint32_t at(std::uint32_t page_number, int px, int py) const;
 
   struct Page {
     std::uint32_t width = 0, height = 0;
-    std::vector<std::uint32_t> number;  // by y * width + x; empty where few places of the page have a texel:
-    std::vector<std::uint32_t> place;   // then y * width + x of each of them, ascending,
+    std::vector<std::uint32_t> number;  // by y * width + x; empty for a sparse page, which has instead
+    std::vector<std::uint32_t> place;   // y * width + x of each texel, ascending,
     std::uint32_t first = 0;            // and the number of the first
   };
   std::vector<Page> pages;
@@ -115,19 +116,21 @@ struct Texels {
   std::vector<Placement> placement;
 
  private:
-  std::uint32_t beside(std::uint32_t texel, const IVec2& step) const;  // of its chart; itself where none lies there
+  // The texel a step away in the same chart, or else the texel itself.
+  std::uint32_t chart_neighbour(std::uint32_t texel, const IVec2& step) const;
   std::uint32_t across_wall(std::uint32_t texel, std::uint32_t triangle, const Vec2& barycentric, const Vec2& p) const;
 };
 
+// Options of list_texels().
 struct TexelUse {
-  std::span<const Vec3> eyes{};  // from which somebody looks; what none of them can see in a gap counts as hidden.
-                                 // None: nothing does
-  bool met = true;               // by rays; false: albedo and diffuse_share are not needed
-  std::uint32_t fewer = 1;       // times as few points are tried of a texel that is partly hidden: small ones need few
+  std::span<const Vec3> eyes{};     // view positions: a gap into which none of them sees is hidden. None: no gap is
+  bool hit_by_rays = true;          // false: albedo and diffuse_share are not filled
+  std::uint32_t point_divisor = 1;  // divides the number of points tried in partly hidden texels: small ones need few
 };
+// Lists the texels of all pages in the order of the texel map, with their sample points and visibility. Error kStopped.
 Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const TexelUse& use = {});
 
-// Area of surface under a texel, m².
+// The area of the surface under texel i of the map, m².
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);
 
 }  // namespace oriel

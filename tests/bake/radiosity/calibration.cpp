@@ -22,7 +22,7 @@ Truth find_truth(const Baked& b, const CalibrationOptions& settings) {
   const Accel accel = *Accel::build(b.scene);
   const LightSet lights(b.scene);
   const Transport transport{accel, lights, {}};
-  const std::vector<Vec3> eyes = eyes_in_the_open(transport, kEyes, kSeed);
+  const std::vector<Vec3> eyes = sample_view_positions(transport, kEyes, kSeed);
   Truth truth;
   truth.pixels = *find_frame_pixels(transport, b.atlas, {eyes, settings.pixels / kEyes}, kSeed, context);
   truth.light.resize(truth.pixels.size());
@@ -81,8 +81,8 @@ Calibration calibrate(const Scene& scene, const CalibrationOptions& settings) {
         c.covered += std::abs(off[k]) <= 1.96 * std::sqrt(std::pow(settings.claimed, 2) * r.error2[k] + noise2[k]);
         c.bias += off[k], light += value[k], ++count;
       }
-      c.error += relative_square(transfer * transfer * (off * off - noise2), shown * shown, floors2[pixel.eye]);
-      c.truth += relative_square(transfer * transfer * noise2, shown * shown, floors2[pixel.eye]);
+      c.error += relative_square(transfer * transfer * (off * off - noise2), shown * shown, floors2[pixel.view]);
+      c.truth += relative_square(transfer * transfer * noise2, shown * shown, floors2[pixel.view]);
       ++pixels;
     }
   }

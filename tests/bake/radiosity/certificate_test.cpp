@@ -26,7 +26,7 @@ constexpr std::uint64_t kCertificateSeed = 0x5ee;
 
 std::vector<FramePixel> pixels_of(const Baked& b, const Transport& transport, std::uint64_t seed = kCertificateSeed) {
   Context context;
-  return *find_frame_pixels(transport, b.atlas, {eyes_in_the_open(transport, 1024, seed), 16}, seed, context);
+  return *find_frame_pixels(transport, b.atlas, {sample_view_positions(transport, 1024, seed), 16}, seed, context);
 }
 
 Certificate certificate_of(const Baked& b, double asked, std::uint64_t rays, int threads = 0, Ask what = Ask::kPoints,
@@ -64,7 +64,7 @@ double added_error(const Baked& good, const Baked& bad, std::uint64_t seed) {
   for (const FramePixel& pixel : pixels) {
     const DVec3 is = shown(good, pixel) + DVec3(pixel.emitted), off = shown(bad, pixel) - shown(good, pixel);
     const DVec3 brighter = glm::max(is, is + off);  // as squared_error() divides
-    sum += relative_square(off * off, brighter * brighter, floors2[pixel.eye]);
+    sum += relative_square(off * off, brighter * brighter, floors2[pixel.view]);
   }
   return std::sqrt(sum / static_cast<double>(pixels.size()));
 }

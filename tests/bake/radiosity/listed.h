@@ -1,7 +1,7 @@
 // A scene taken as far as its texels, for tests of what is done with them.
 #pragma once
 
-#include "bake/radiosity/texels/more_sites.h"
+#include "bake/radiosity/texels/extra_sample_points.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel::test {
@@ -31,7 +31,7 @@ struct Listed {
     }
   }
   Transport transport() const { return {*accel, *lights, {}}; }
-  MoreSites sites(const Transport& t) const { return {{t, atlas, map}, texels, context.seed}; }
+  ExtraSamplePoints sample_points(const Transport& t) const { return {{t, atlas, map}, texels, context.seed}; }
 };
 
 }  // namespace oriel::test

@@ -21,9 +21,9 @@ struct Swept {
     transport.options.max_bounces = max_bounces;
     scene.context.warn = [this](const Warning& said) { warnings.push_back(said.text); };
     const TexelGraph graph = *find_neighbours(transport, scene.texels, scene.context);
-    const Surroundings around(transport, scene.texels, true, scene.context.seed);
+    const CacheQuery query(transport, scene.texels, true, scene.context.seed);
     const std::vector<Vec3> light(scene.texels.count(), Vec3(direct));
-    sweeps = *sweep({scene.texels, graph, around, light}, options, scene.context);
+    sweeps = *sweep({scene.texels, graph, query, light}, options, scene.context);
   }
   float largest() const {
     float most = 0;

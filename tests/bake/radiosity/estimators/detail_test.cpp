@@ -36,13 +36,14 @@ LightmapPage lit(const Listed& floor, const Light& light, float standard_error) 
 
 CellLevels chosen(const Listed& floor, const LightmapPage& page, const CellGoal& goal,
                   const std::vector<std::vector<bool>>& at_seam = {}) {
-  const std::vector<float> shares(floor.map[0].texel.size(), 1.0f);
+  const std::vector<float> importance(floor.map[0].texel.size(), 1.0f);
   Radiosity light;
   light.at_seam = at_seam;
   light.pages.push_back(page);
-  light.visible.emplace_back(shares.size(), 1.0f);
-  const std::vector<char> crowded(shares.size());
-  return choose_cells(light.pages, find_cells(floor.atlas, floor.map, light, {shares, crowded, {}, {}}, goal), goal);
+  light.visible.emplace_back(importance.size(), 1.0f);
+  const std::vector<char> crowded(importance.size());
+  return choose_cells(light.pages, find_cells(floor.atlas, floor.map, light, {importance, crowded, {}, {}}, goal),
+                      goal);
 }
 
 std::size_t count(const CellLevels& levels, std::uint8_t level) {
@@ -101,13 +102,14 @@ std::vector<CellCandidate> on_an_edge(const Listed& floor, const Reflected& of_r
   std::vector<Vec3> reflected;
   for (const std::uint32_t t : floor.map[0].texel)
     reflected.push_back(Vec3(of_reflected(static_cast<float>(t % edge.width))));
-  const std::vector<float> shares(n, 1.0f);
+  const std::vector<float> importance(n, 1.0f);
   const std::vector<char> crowded(n, stands_close);
   const std::vector<Vec3> exact(n, Vec3(0));
   Radiosity light;
   light.pages.push_back(edge);
   light.visible.emplace_back(n, 1.0f);
-  return find_cells(floor.atlas, floor.map, light, {shares, crowded, reflected, exact}, {.error = 0.02, .floor = 10});
+  return find_cells(floor.atlas, floor.map, light, {importance, crowded, reflected, exact},
+                    {.error = 0.02, .floor = 10});
 }
 
 TEST(DetailCells, GatherWhereReflectedLightBends) {

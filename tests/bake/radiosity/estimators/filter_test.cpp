@@ -28,12 +28,12 @@ Scene shadows() {
 struct Shadows {
   Listed listed{shadows(), 0.05f};
   const Transport transport = listed.transport();
-  const MoreSites sites = listed.sites(transport);
+  const ExtraSamplePoints sample_points = listed.sample_points(transport);
   const TexelGraph graph = *find_neighbours(transport, listed.texels, listed.context);
 
   DirectSums direct(std::uint32_t per_half, std::uint64_t seed) {
     DirectSums sums(listed.texels.count(), false);
-    const DirectLight light(transport, listed.texels, sites, seed);
+    const DirectLight light(transport, listed.texels, sample_points, seed);
     EXPECT_TRUE(light.estimate(listed.floor, per_half, listed.context, sums));
     return sums;
   }
@@ -50,7 +50,7 @@ TEST(Filter, TakesNoiseFromPenumbraeAndLeavesShadowsEdges) {
   for (const std::uint32_t i : s.listed.floor) {
     if (texels.visible[i] < 1) continue;
     const double before = sums.value[i].g - truth[i].g, after = smooth.value[i].g - truth[i].g;
-    const bool soft = texels.site_for(i, 0, 0).origin.x < 1.9f;
+    const bool soft = texels.sample_point(i, 0, 0).origin.x < 1.9f;
     (soft ? all : sharp) += after * after, (soft ? stated : stated_sharp) += smooth.variance[i].g;
     if (sums.variance[i].g > 0) {
       ++penumbra, noise += before * before, left += after * after;
@@ -86,7 +86,7 @@ TEST(Filter, LeavesNoDots) {
   const Estimate smooth = filter(texels, s.graph, halves_of(sums, s.listed.context), {}, s.listed.context);
   std::size_t dots = 0, open = 0, dots_at_ends = 0, at_ends = 0;
   for (const std::uint32_t i : s.listed.floor) {
-    if (texels.visible[i] < 1 || texels.has_many[i]) continue;
+    if (texels.visible[i] < 1 || texels.occlusion_heavy[i]) continue;
     const bool end = s.graph.of(i).size() < kMaxNeighbours;
     const bool dot = std::fabs(smooth.value[i].g - 100) > 30;
     (end ? at_ends : open) += 1, (end ? dots_at_ends : dots) += dot ? 1 : 0;
@@ -115,7 +115,7 @@ TEST(Filter, LightFromAllAroundStepsAtContactsAlone) {
       for (std::size_t k = 0; k < s.graph.of(i).size(); ++k) {
         const std::uint32_t j = s.graph.of(i)[k];
         if (texels.visible[j] < 1) continue;
-        const bool contact = texels.has_many[i] || texels.has_many[j];
+        const bool contact = texels.occlusion_heavy[i] || texels.occlusion_heavy[j];
         ++(contact ? contacts : open);
         EXPECT_EQ(c[i][k] > 0.01f, !contact && !steps) << i << " and " << j;
       }
@@ -130,8 +130,8 @@ TEST(Part, PaysWhereItsErrorIsGreaterForItsRays) {
   Part dear{.samples = samples, .most = 8, .gain = 0.5, .rays = 1000, .squares = {0.01f, 0.02f, 0.03f}};
   Part cheap = dear;
   cheap.rays = 100;
-  const std::vector<float> shares = {0.125f, 0.125f, 0.25f, 0.5f};
-  dear.measure(all, shares), cheap.measure(all, shares);
+  const std::vector<float> importance = {0.125f, 0.125f, 0.25f, 0.5f};
+  dear.measure(all, importance), cheap.measure(all, importance);
   EXPECT_NEAR(dear.mean, 0.12, 1e-7);
   EXPECT_TRUE(cheap.pays_more_than(dear));
   EXPECT_FALSE(dear.pays_more_than(cheap));

@@ -27,7 +27,7 @@ struct Lit {
   DirectSums direct(std::uint32_t per_half) {
     DirectSums sums(listed.texels.count(), false);
     rays = 0;
-    const DirectLight light(transport, listed.texels, sites, 1);
+    const DirectLight light(transport, listed.texels, sample_points, 1);
     EXPECT_TRUE(light.estimate(listed.floor, per_half, {listed.context, &rays}, sums));
     return sums;
   }
@@ -35,7 +35,7 @@ struct Lit {
   Listed listed;
   std::atomic<std::uint64_t> rays{0};
   const Transport transport = listed.transport();
-  const MoreSites sites = listed.sites(transport);
+  const ExtraSamplePoints sample_points = listed.sample_points(transport);
 };
 
 TEST(Pilot, TellsWhatIsSeenWhollyOrNotAtAll) {

@@ -15,24 +15,24 @@ namespace {
 struct Alike {
   TexelGraph graph;
   std::vector<std::uint32_t> order;
-  std::vector<float> squares, shares;
+  std::vector<float> squares, importance;
   std::vector<std::uint32_t> samples;
   Context context;
 
-  explicit Alike(std::size_t n) : order(n), squares(n, 0.04f), shares(n, 1), samples(n, 4) {
+  explicit Alike(std::size_t n) : order(n), squares(n, 0.04f), importance(n, 1), samples(n, 4) {
     std::iota(order.begin(), order.end(), 0u);
     graph.neighbour.resize(n), graph.count.assign(n, 0);
   }
   std::vector<std::uint32_t> worst(const WorstOptions& options) {
-    return worst_texels(graph, order, {squares, shares, samples}, options, context);
+    return worst_texels(graph, order, {squares, importance, samples}, options, context);
   }
 };
 
 TEST(WorstTexels, AreThoseThatGainMostForTheirRays) {
   Alike a(4);
-  a.shares[0] *= 0.2f, a.squares[0] *= 0.2f;  // little seen
-  a.samples[1] = 64;                          // dear
-  a.squares[2] = 0.02f;                       // better
+  a.importance[0] *= 0.2f, a.squares[0] *= 0.2f;  // little seen
+  a.samples[1] = 64;                                   // dear
+  a.squares[2] = 0.02f;                                // better
   // What refining one whole texel takes away is 0.02, of the little seen one 0.004.
   EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.015}), (std::vector<std::uint32_t>{3}));
   EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.025}), (std::vector<std::uint32_t>{2, 3}));
@@ -48,11 +48,11 @@ TEST(WorstTexels, AreNotThoseThatAreTwiceAsGoodAsAsked) {
 }
 
 TEST(LittleSeen, AreThoseThatTogetherFillLittle) {
-  const std::vector<float> shares = {0.5f, 0.002f, 0, 0.001f, 0.497f};
+  const std::vector<float> importance = {0.5f, 0.002f, 0, 0.001f, 0.497f};
   const std::vector<std::uint32_t> all = {0, 1, 2, 3, 4};
-  EXPECT_EQ(little_seen(all, shares, 0.0035), (std::vector<bool>{false, true, true, true, false}));
-  EXPECT_EQ(little_seen(all, shares, 0.0025), (std::vector<bool>{false, false, true, true, false}));
-  EXPECT_EQ(little_seen(all, shares, 0), std::vector<bool>(5)) << "no error was asked for: all count";
+  EXPECT_EQ(little_seen(all, importance, 0.0035), (std::vector<bool>{false, true, true, true, false}));
+  EXPECT_EQ(little_seen(all, importance, 0.0025), (std::vector<bool>{false, false, true, true, false}));
+  EXPECT_EQ(little_seen(all, importance, 0), std::vector<bool>(5)) << "no error was asked for: all count";
 }
 
 // On a ball of texels as large as half its radius none continues another, and none would be refined for what its

@@ -18,10 +18,10 @@ Gathered gather_all(const Listed& listed, const CachedLight& cached, std::uint64
   const Transport transport = listed.transport();
   Context context;
   context.seed = seed;
-  const Surroundings around(transport, listed.texels, true, seed);
-  const MoreSites sites({transport, listed.atlas, listed.map}, listed.texels, seed);
+  const CacheQuery query(transport, listed.texels, true, seed);
+  const ExtraSamplePoints sample_points({transport, listed.atlas, listed.map}, listed.texels, seed);
   HalfSums sums(listed.texels.count(), false);
-  EXPECT_TRUE((FinalGather{sites, around, cached}.run(coherent_order(listed.texels), 256, context, sums)));
+  EXPECT_TRUE((FinalGather{sample_points, query, cached}.run(coherent_order(listed.texels), 256, context, sums)));
   Gathered all;
   double m2 = 0;
   for (std::size_t i = 0; i < listed.texels.count(); ++i) {
@@ -46,19 +46,19 @@ void expect_same_light(bool behind_box) {
   std::vector<Vec3> light(listed.texels.count(), Vec3(1));
   int bright_ones = 0;
   for (std::size_t i = 0; i < light.size(); ++i) {
-    const TexelSite& site = listed.texels.site[i][0];
-    const bool on_floor = site.geometric_normal.y > 0.9f && site.origin.y < 0.1f;
-    const Vec2 at(site.origin.x, site.origin.z), spot = behind_box ? Vec2(1.9f, 1.6f) : Vec2(3, 3);
+    const SamplePoint& point = listed.texels.sample_points[i][0];
+    const bool on_floor = point.geometric_normal.y > 0.9f && point.origin.y < 0.1f;
+    const Vec2 at(point.origin.x, point.origin.z), spot = behind_box ? Vec2(1.9f, 1.6f) : Vec2(3, 3);
     if (on_floor && glm::distance(at, spot) < 0.4f) light[i] = Vec3(300), ++bright_ones;
   }
   ASSERT_GT(bright_ones, 4);
   CachedLight cached = cache_light(listed.texels, graph, light, context);
   const Gathered alone = gather_all(listed, cached, 2);
-  const Surroundings around(transport, listed.texels, true, 1);
-  const MoreSites sites = listed.sites(transport);
+  const CacheQuery query(transport, listed.texels, true, 1);
+  const ExtraSamplePoints sample_points = listed.sample_points(transport);
   const std::vector<Vec3> gathered(light.size(), Vec3(0.7f));
-  const std::vector<float> shares(light.size(), 1.0f);
-  const BrightTexels bright(around, {listed.texels, sites, cached, gathered, shares}, 1);
+  const std::vector<float> importance(light.size(), 1.0f);
+  const BrightTexels bright(query, {listed.texels, sample_points, cached, gathered, importance}, 1);
   ASSERT_FALSE(bright.empty());
   cached.bright = &bright;
   const Gathered aimed = gather_all(listed, cached, 2);
@@ -78,16 +78,16 @@ TEST(BrightTexels, EvenLightHasNone) {
   parts.box("room", parts.diffuse(Vec3(0.7f)), Vec3(0), Vec3(4, 3, 4), true);
   const Listed listed(parts.finish(), 0.5f);
   const Transport transport = listed.transport();
-  const Surroundings around(transport, listed.texels, true, 1);
+  const CacheQuery query(transport, listed.texels, true, 1);
   Context context;
-  const MoreSites sites = listed.sites(transport);
-  const std::vector<float> shares(listed.texels.count(), 1.0f);
+  const ExtraSamplePoints sample_points = listed.sample_points(transport);
+  const std::vector<float> importance(listed.texels.count(), 1.0f);
   for (const float lux :
        {0.0f, 1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     const std::vector<Vec3> even(listed.texels.count(), Vec3(lux));
     CachedLight cached{even, std::vector<CachedTexel>(even.size())};
     for (CachedTexel& texel : cached.texels) texel.radiance = Vec3(lux / kPi);
-    EXPECT_TRUE(BrightTexels(around, {listed.texels, sites, cached, even, shares}, 1).empty()) << lux;
+    EXPECT_TRUE(BrightTexels(query, {listed.texels, sample_points, cached, even, importance}, 1).empty()) << lux;
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bake/radiosity/gather/surroundings.h"
+#include "bake/radiosity/gather/cache_query.h"
 #include "tests/bake/radiosity/listed.h"
 
 namespace oriel::test {
@@ -24,7 +24,8 @@ struct Floor : Listed {
     graph = *find_neighbours(transport(), texels, context);
     for (std::size_t i = 0; i < texels.count(); ++i) {
       Vec3 centre(0);
-      for (const TexelSite& site : texels.site[i]) centre += site.origin / static_cast<float>(kSites);
+      for (const SamplePoint& point : texels.sample_points[i])
+        centre += point.origin / static_cast<float>(kSamplePoints);
       irradiance.push_back(light(centre));
     }
   }
@@ -35,8 +36,8 @@ TEST(CachedLight, LinearLightIsMetExactly) {
   Floor floor(light);
   const CachedLight cached = cache_light(floor.texels, floor.graph, floor.irradiance, floor.context);
   for (std::size_t i = 0; i < floor.texels.count(); ++i)
-    for (const TexelSite& site : floor.texels.site[i]) {
-      const Vec3 expected = light(site.origin) * (0.5f / kPi), found = cached.texels[i].at(site.origin);
+    for (const SamplePoint& point : floor.texels.sample_points[i]) {
+      const Vec3 expected = light(point.origin) * (0.5f / kPi), found = cached.texels[i].at(point.origin);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 2e-3f * expected[c]);
     }
 }
@@ -45,8 +46,8 @@ TEST(CachedLight, AStepBringsNoLightBelowZero) {
   Floor floor([](const Vec3& p) { return Vec3(p.x < 1 ? 0.0f : 1000.0f); });
   const CachedLight cached = cache_light(floor.texels, floor.graph, floor.irradiance, floor.context);
   for (std::size_t i = 0; i < floor.texels.count(); ++i)
-    for (const TexelSite& site : floor.texels.site[i]) {
-      const Vec3 found = cached.texels[i].at(site.origin);
+    for (const SamplePoint& point : floor.texels.sample_points[i]) {
+      const Vec3 found = cached.texels[i].at(point.origin);
       EXPECT_GE(found.g, 0);
       EXPECT_LE(found.g, 2 * 500 / kPi + 1e-3f);
       EXPECT_EQ(found.g == 0, floor.irradiance[i].g == 0);
@@ -59,26 +60,26 @@ TEST(CachedLight, LightBelowZeroIsMetAsNone) {
     Floor floor([&](const Vec3& p) { return Vec3(-1e-3f + (p.x < 1 ? 0 : step)); });
     const CachedLight cached = cache_light(floor.texels, floor.graph, floor.irradiance, floor.context);
     for (std::size_t i = 0; i < floor.texels.count(); ++i)
-      for (const TexelSite& site : floor.texels.site[i]) EXPECT_EQ(cached.texels[i].at(site.origin).g, 0);
+      for (const SamplePoint& point : floor.texels.sample_points[i]) EXPECT_EQ(cached.texels[i].at(point.origin).g, 0);
   }
 }
 
 // A ray that meets a floor of 10 cm texels from 25 cm above: far from two texels, near to four, and then followed to
 // where it sees the sky.
-TEST(Surroundings, NearIsFollowedSoManySides) {
+TEST(CacheQuery, NearIsFollowedSoManySides) {
   Listed listed(plain_floor(), 0.1f);
   listed.scene.sky = Vec3(2);
   listed.accel.emplace(*Accel::build(listed.scene));
   const Transport transport = listed.transport();
-  Surroundings around(transport, listed.texels, true, 1);
+  CacheQuery query(transport, listed.texels, true, 1);
   const std::array ray{Ray{{1.02f, 0.25f, 1.03f}, {0, -1, 0}}};
-  const std::array about{GatherRay{.incidence = 1, .near = true}};
+  const std::array info{GatherRay{.incidence = 1, .follows_near = true}};
   for (const float sides : {2.0f, 4.0f}) {
-    around.set_near(sides);
-    Answers answers;
-    around.answer(ray, about, answers);
-    EXPECT_EQ(answers.texel[0] == kNoTexel, sides > 2.5f) << sides;
-    EXPECT_FLOAT_EQ(answers.light[0].g, sides > 2.5f ? 2 * 0.5f : 0) << "the sky on an albedo of a half";
+    query.set_min_distance(sides);
+    QueryResults results;
+    query.evaluate(ray, info, results);
+    EXPECT_EQ(results.texel[0] == kNoTexel, sides > 2.5f) << sides;
+    EXPECT_FLOAT_EQ(results.light[0].g, sides > 2.5f ? 2 * 0.5f : 0) << "the sky on an albedo of a half";
   }
 }
 

@@ -58,9 +58,9 @@ TEST(LampPaths, AMirrorShowsTheLampWhereItsImageIs) {
   expected *= kLuminance * kLampSide * kLampSide / (kGrid * kGrid * kLampGrid * kLampGrid);
   std::atomic<std::uint64_t> rays{0};
   const Transport transport = listed.transport();
-  const Surroundings around(transport, listed.texels, true, 1);
+  const CacheQuery query(transport, listed.texels, true, 1);
   LampLight light(listed.texels.count(), true);
-  ASSERT_TRUE(trace_lamps(listed.texels, around, 1u << 19, {listed.context, &rays}, light));
+  ASSERT_TRUE(trace_lamps(listed.texels, query, 1u << 19, {listed.context, &rays}, light));
   EXPECT_EQ(light.particles, 1u << 19);
   EXPECT_NEAR(mean_of(listed, listed.floor, light) / expected, 1, 0.01);
   // From the lamp's image: down, and towards it.
@@ -80,9 +80,9 @@ TEST(LampPaths, PointsInMirrorsAreLeftOutAsPathsMissThem) {
     scene.lights = {lamp};
     Listed listed(std::move(scene), 0.5f);
     const Transport transport = listed.transport();
-    const Surroundings around(transport, listed.texels, true, 1);
+    const CacheQuery query(transport, listed.texels, true, 1);
     LampLight light(listed.texels.count(), false);
-    ASSERT_TRUE(trace_lamps(listed.texels, around, 1u << 14, listed.context, light));
+    ASSERT_TRUE(trace_lamps(listed.texels, query, 1u << 14, listed.context, light));
     EXPECT_EQ(mean_of(listed, listed.floor, light) > 0, roughness > 0);
   }
 }
@@ -92,7 +92,7 @@ TEST(LampPaths, CostNothingWhereNoLampIsNear) {
   std::atomic<std::uint64_t> rays{0};
   const Transport transport = listed.transport();
   LampLight light(listed.texels.count(), false);
-  ASSERT_TRUE(trace_lamps(listed.texels, Surroundings(transport, listed.texels, true, 1), 1u << 14,
+  ASSERT_TRUE(trace_lamps(listed.texels, CacheQuery(transport, listed.texels, true, 1), 1u << 14,
                           {listed.context, &rays}, light));
   EXPECT_EQ(light.particles, 0u);
   EXPECT_EQ(rays, 0u);
@@ -141,21 +141,22 @@ TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
   const auto order = coherent_order(listed.texels);
   LampLight light(listed.texels.count(), false);
   const auto flux = [&](bool by_particles) {
-    Surroundings around(transport, listed.texels, true, 1);
-    around.set_near(2);
-    around.set_survival(std::vector<float>(listed.scene.materials.size(), 64.0f));
+    CacheQuery query(transport, listed.texels, true, 1);
+    query.set_min_distance(2);
+    query.set_survival(std::vector<float>(listed.scene.materials.size(), 64.0f));
     HalfSums sums(listed.texels.count(), false);
     if (by_particles) {
-      EXPECT_TRUE(trace_lamps(listed.texels, around, 1u << 18, {listed.context, &rays}, light));
-      around.leave_out_lamps();
+      EXPECT_TRUE(trace_lamps(listed.texels, query, 1u << 18, {listed.context, &rays}, light));
+      query.leave_out_lamps();
       for (int h = 0; h < kHalves; ++h)
-        for (std::size_t i = 0; i < dark.size(); ++i) sums.beside[h][i] = light.half(h, i);
+        for (std::size_t i = 0; i < dark.size(); ++i) sums.additional[h][i] = light.half(h, i);
     }
-    EXPECT_TRUE((FinalGather{listed.sites(transport), around, cached}.run(order, 512, {listed.context, &rays}, sums)));
+    EXPECT_TRUE(
+        (FinalGather{listed.sample_points(transport), query, cached}.run(order, 512, {listed.context, &rays}, sums)));
     double total = 0, beside = 0;
     for (std::size_t i = 0; i < dark.size(); ++i) {
       const double lit_m2 = listed.texels.area_m2[i] * listed.texels.visible[i];
-      total += lit_m2 * luminance(sums.mean(i)), beside += lit_m2 * luminance(sums.beside[0][i]);
+      total += lit_m2 * luminance(sums.mean(i)), beside += lit_m2 * luminance(sums.additional[0][i]);
     }
     return std::pair(total, beside / total);
   };
@@ -179,13 +180,13 @@ TEST(LampPaths, FillABoxOfMetal) {
   parts.box("lamp", parts.diffuse(Vec3(0), Vec3(kLuminance)), Vec3(-kLamp), Vec3(kLamp));
   const Listed listed(parts.finish(), 0.5f);
   const Transport transport = listed.transport();
-  const Surroundings around(transport, listed.texels, true, 1);
+  const CacheQuery query(transport, listed.texels, true, 1);
   LampLight light(listed.texels.count(), false);
   Context context;
-  ASSERT_TRUE(trace_lamps(listed.texels, around, 4096, context, light));
+  ASSERT_TRUE(trace_lamps(listed.texels, query, 4096, context, light));
   std::vector<std::uint32_t> walls;
   for (std::uint32_t i = 0; i < listed.texels.count(); ++i)
-    if (max_component(glm::abs(listed.texels.site[i][0].origin)) > 0.9f * kRoom) walls.push_back(i);
+    if (max_component(glm::abs(listed.texels.sample_points[i][0].origin)) > 0.9f * kRoom) walls.push_back(i);
   const double straight = kLamp * kLamp / (kRoom * kRoom);
   EXPECT_NEAR(mean_of(listed, walls, light) / (kPi * kLuminance), 1 - straight, 0.1);
 }

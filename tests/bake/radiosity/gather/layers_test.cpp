@@ -1,7 +1,7 @@
 // Specular layers over texels: what they leave to the diffuse reflection, and how often paths go on from them.
 #include <gtest/gtest.h>
 
-#include "bake/radiosity/gather/gather_site.h"
+#include "bake/radiosity/gather/gather_point.h"
 #include "bake/radiosity/gather/survival.h"
 #include "bake/trace/albedo.h"
 #include "tests/bake/radiosity/listed.h"
@@ -52,25 +52,25 @@ Seen look_down(float roughness, float cosine, float survival) {
   listed.scene.sky = Vec3(1);
   listed.accel.emplace(*Accel::build(listed.scene));
   const Transport transport = listed.transport();
-  Surroundings around(transport, listed.texels, true, 1);
-  around.set_survival({survival});
+  CacheQuery query(transport, listed.texels, true, 1);
+  query.set_survival({survival});
   constexpr int kRays = 40000;
   const Vec3 direction(std::sqrt(1 - cosine * cosine), -cosine, 0);
   const std::vector<Ray> rays(kRays, Ray{Vec3(1.02f, 0, 1.03f) - 0.5f * direction, direction});
-  std::vector<GatherRay> about(kRays, GatherRay{.incidence = 1});
-  for (std::uint32_t i = 0; i < kRays; ++i) about[i].sample = i;
-  Answers answers;
-  around.answer(rays, about, answers);
+  std::vector<GatherRay> info(kRays, GatherRay{.incidence = 1});
+  for (std::uint32_t i = 0; i < kRays; ++i) info[i].sample = i;
+  QueryResults results;
+  query.evaluate(rays, info, results);
   double sum = 0, squares = 0;
   for (int i = 0; i < kRays; ++i) {
-    const double light = answers.light[i].g + answers.share[i] * listed.texels.albedo[answers.texel[i]].g;
+    const double light = results.light[i].g + results.share[i] * listed.texels.albedo[results.texel[i]].g;
     sum += light, squares += light * light;
   }
   return {sum / kRays, squares / kRays - sum * sum / kRays / kRays};
 }
 
 // In a furnace the light is R + (1 - R) / 2.
-TEST(Surroundings, GlossInAFurnaceWhateverTheSurvival) {
+TEST(CacheQuery, GlossInAFurnaceWhateverTheSurvival) {
   for (const float roughness : {0.1f, 0.5f, 1.0f})
     for (const float cosine : {0.9f, 0.4f}) {
       ShadePoint point;
@@ -95,12 +95,12 @@ TEST(Survival, IsHigherWhereLayersReflectBrightThings) {
     Listed room(parts.finish(), 0.25f);
     const Transport transport = room.transport();
     const TexelGraph graph = *find_neighbours(transport, room.texels, room.context);
-    Surroundings around(transport, room.texels, true, 1);
+    CacheQuery query(transport, room.texels, true, 1);
     std::vector<std::uint32_t> order = coherent_order(room.texels);
     const std::vector<Vec3> irradiance(room.texels.count(), Vec3(1));
     const CachedLight cached = cache_light(room.texels, graph, irradiance, room.context);
-    EXPECT_TRUE(learn_survival(room.texels, around, order, cached, room.context));
-    return around.survival();
+    EXPECT_TRUE(learn_survival(room.texels, query, order, cached, room.context));
+    return query.survival();
   };
   const std::vector<float> bright = learnt(1000), dull = learnt(0.01f);
   EXPECT_GE(bright[0], 16);

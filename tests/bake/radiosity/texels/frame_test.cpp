@@ -31,8 +31,8 @@ struct Traced {
   explicit Traced(Scene scene, float texel_m = 0.2f)
       : b(test::bake(std::move(scene), texel_m, {.samples = 1})), accel(*Accel::build(b.scene)), lights(b.scene) {}
   Transport transport() const { return {accel, lights, {}}; }
-  std::vector<FramePixel> pixels(const std::vector<Vec3>& eyes, std::uint32_t per_eye) {
-    return *find_frame_pixels(transport(), b.atlas, {eyes, per_eye}, 1, context);
+  std::vector<FramePixel> pixels(const std::vector<Vec3>& eyes, std::uint32_t directions_per_view) {
+    return *find_frame_pixels(transport(), b.atlas, {eyes, directions_per_view}, 1, context);
   }
 };
 
@@ -100,7 +100,7 @@ TEST(EyesInTheOpen, AreEvenlySpreadOverTheAir) {
   parts.box("plinth", white, {1, 0, 0.5f}, {2, 1, 1.5f});
   parts.box("slit", white, {2.001f, 0, 0.5f}, {3, 1, 1.5f});
   Traced t(parts.finish());
-  const std::vector<Vec3> eyes = eyes_in_the_open(t.transport(), 4096, 3);
+  const std::vector<Vec3> eyes = sample_view_positions(t.transport(), 4096, 3);
   ASSERT_EQ(eyes.size(), 4096u);
   double low = 0, slit = 0;
   for (const Vec3& e : eyes) {
@@ -118,8 +118,8 @@ TEST(FrameError, IsWhatThePixelsShow) {
   std::vector<FramePixel> pixels(4);
   for (FramePixel& p : pixels) p.transfer = Vec3(0.5f / kPi), p.share = {1, 0, 0, 0};
   const FrameError error(pixels, std::span(&map, 1), {true, true});
-  EXPECT_FLOAT_EQ(error.shares()[0], 1);
-  EXPECT_FLOAT_EQ(error.shares()[1], 0);
+  EXPECT_FLOAT_EQ(error.importance()[0], 1);
+  EXPECT_FLOAT_EQ(error.importance()[1], 0);
   const std::vector<float> squares = error.squares(std::vector{Vec3(10), Vec3(1)}, std::vector{Vec3(4), Vec3(100)});
   EXPECT_NEAR(squares[0], 4 / (100 + 4 + 0.01 * 100), 1e-6) << "light, what is not known of it, and the floor";
   EXPECT_EQ(squares[1], 0);
@@ -136,14 +136,14 @@ TEST(FrameError, HasAFloorOfATenthOfWhatTheEyeSees) {
   EXPECT_NEAR(squares[1] * 2, 1 / (1 + 1 + std::pow(0.1 * 50.5, 2)), 1e-4);
   // What is not lit by itself takes its light from what is.
   const FrameError one(pixels, std::span(&map, 1), {true, false});
-  EXPECT_FLOAT_EQ(one.shares()[0], 1);
+  EXPECT_FLOAT_EQ(one.importance()[0], 1);
 }
 
 TEST(FrameError, HoldsWhatIsBlackBesideTheRestAgainstThat) {
   TexelMapPage map{2, 1, {0, 1}, {}, {}};
   std::vector<FramePixel> pixels(2);
   for (std::uint32_t i = 0; i < 2; ++i) {
-    pixels[i].eye = i, pixels[i].transfer = Vec3(1);
+    pixels[i].view = i, pixels[i].transfer = Vec3(1);
     pixels[i].texel[0] = i, pixels[i].share = {1, 0, 0, 0};
   }
   const FrameError error(pixels, std::span(&map, 1), {true, true});

@@ -1,4 +1,4 @@
-#include "bake/radiosity/gather/gather_site.h"
+#include "bake/radiosity/gather/gather_point.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "bake/trace/onlookers.h"
+#include "bake/trace/view_samples.h"
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ bool is_lamp(const Scene& scene, std::uint32_t triangle, bool front) {
   return !m.unlit && max_component(m.emission) > 0 && (front || m.double_sided);
 }
 
-bool Onlookers::in_dark_gap(const SurfacePoint& surface, float reach_m, Sampler& sampler, std::uint64_t& rays) const {
+bool ViewSamples::in_dark_gap(const SurfacePoint& surface, float reach_m, Sampler& sampler, std::uint64_t& rays) const {
   if (is_lamp(accel_.scene(), surface.triangle, surface.front)) return false;
   const Mat3 frame = frame_from_normal(surface.geometric_normal);
   const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
@@ -35,8 +35,8 @@ bool Onlookers::in_dark_gap(const SurfacePoint& surface, float reach_m, Sampler&
 }
 
 // Lamps too small for the probes.
-bool Onlookers::is_lit_from_near(const SurfacePoint& surface, float reach_m, Sampler& sampler,
-                                 std::uint64_t& rays) const {
+bool ViewSamples::is_lit_from_near(const SurfacePoint& surface, float reach_m, Sampler& sampler,
+                                   std::uint64_t& rays) const {
   const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
   for (int i = 0; i < kLampSamples; ++i) {
     const float u = sampler.next1();
@@ -49,7 +49,7 @@ bool Onlookers::is_lit_from_near(const SurfacePoint& surface, float reach_m, Sam
   return false;
 }
 
-std::vector<Vec3> Onlookers::nearest_to(const Vec3& point, const Vec3& normal, std::size_t most) const {
+std::vector<Vec3> ViewSamples::nearest_to(const Vec3& point, const Vec3& normal, std::size_t most) const {
   std::vector<std::pair<float, std::uint32_t>> before;  // squared distance, eye
   for (std::uint32_t e = 0; e < eyes_.size(); ++e)
     if (const Vec3 way = eyes_[e] - point; glm::dot(way, normal) > 0) before.emplace_back(glm::dot(way, way), e);
@@ -60,15 +60,15 @@ std::vector<Vec3> Onlookers::nearest_to(const Vec3& point, const Vec3& normal, s
   return eyes;
 }
 
-bool Onlookers::see(const SurfacePoint& surface, float reach_m, const SampleId& id, Nearest& nearest,
-                    std::uint64_t& rays) const {
+bool ViewSamples::sees(const SurfacePoint& surface, float reach_m, const SampleId& id, Nearest& nearest,
+                       std::uint64_t& rays) const {
   if (eyes_.empty()) return true;
   Sampler sampler(mix64(id.seed + kSeed), id.stream, id.sample);
   if (!in_dark_gap(surface, reach_m, sampler, rays)) return true;
   return in_sight(spawn_origin(surface, surface.geometric_normal), surface.geometric_normal, nearest, rays);
 }
 
-bool Onlookers::in_sight(const Vec3& origin, const Vec3& normal, Nearest& nearest, std::uint64_t& rays) const {
+bool ViewSamples::in_sight(const Vec3& origin, const Vec3& normal, Nearest& nearest, std::uint64_t& rays) const {
   if (!nearest) nearest = nearest_to(origin, normal, kNearest);
   for (const Vec3& eye : *nearest) {
     const float distance = glm::distance(eye, origin);
@@ -80,7 +80,7 @@ bool Onlookers::in_sight(const Vec3& origin, const Vec3& normal, Nearest& neares
   return false;
 }
 
-bool Onlookers::in_sight_of_any(const Vec3& point, const Vec3& normal, std::uint64_t& rays) const {
+bool ViewSamples::in_sight_of_any(const Vec3& point, const Vec3& normal, std::uint64_t& rays) const {
   Nearest eyes = nearest_to(point, normal, kVeryMany);
   return in_sight(point, normal, eyes, rays);
 }

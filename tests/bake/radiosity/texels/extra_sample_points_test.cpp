@@ -1,5 +1,5 @@
 // Points of texels beyond those that are kept.
-#include "bake/radiosity/texels/more_sites.h"
+#include "bake/radiosity/texels/extra_sample_points.h"
 
 #include <gtest/gtest.h>
 
@@ -20,28 +20,28 @@ Scene strip() {
   return parts.finish();
 }
 
-TEST(MoreSites, LieInThePartThatSeesLight) {
+TEST(ExtraSamplePoints, LieInThePartThatSeesLight) {
   const Listed listed(strip(), 1);
   ASSERT_FALSE(listed.floor.empty());
   const std::uint32_t floor = listed.floor.back();
   ASSERT_NEAR(listed.texels.visible[floor], 0.2, 0.08);
   const Transport transport = listed.transport();
-  const MoreSites sites = listed.sites(transport);
+  const ExtraSamplePoints sample_points = listed.sample_points(transport);
   constexpr std::uint32_t kPoints = 512;
   for (int half = 0; half < kHalves; ++half) {
-    const std::uint32_t kept = listed.texels.kept_sites(floor, half);
+    const std::uint32_t kept = listed.texels.sample_point_count(floor, half);
     ASSERT_LT(kept, kPoints / 4);
     std::set<std::pair<float, float>> points;
     double x = 0, z = 0;
     std::uint64_t rays = 0;
     for (std::uint32_t k = 0; k < kPoints; ++k) {
-      const TexelSite site = sites.at(floor, half, k, rays);
+      const SamplePoint point = sample_points.at(floor, half, k, rays);
       if (k < kept) {
-        EXPECT_EQ(site.origin, listed.texels.site_for(floor, half, k).origin);
+        EXPECT_EQ(point.origin, listed.texels.sample_point(floor, half, k).origin);
       }
-      EXPECT_GT(site.origin.x, 0.8f);
-      points.emplace(site.origin.x, site.origin.z);
-      x += site.origin.x / kPoints, z += site.origin.z / kPoints;
+      EXPECT_GT(point.origin.x, 0.8f);
+      points.emplace(point.origin.x, point.origin.z);
+      x += point.origin.x / kPoints, z += point.origin.z / kPoints;
     }
     EXPECT_GT(points.size(), (kPoints - 3 * kept) * 9 / 10) << "kept ones serve four times, and where tries find none";
     EXPECT_NEAR(x, 0.9, 4 * 0.2 / std::sqrt(12.0 * kPoints));
@@ -68,8 +68,8 @@ TEST(TexelPart, IsTheSideThatEyesSee) {
   const Texels seen = *list_texels({listed.transport(), listed.atlas, listed.map}, listed.context, {eyes});
   ASSERT_GT(listed.texels.visible[floor], 0);
   ASSERT_GT(seen.visible[floor], 0);
-  for (const TexelSite& site : listed.texels.site[floor]) EXPECT_LT(site.origin.x, 0.8f) << "most of it";
-  for (const TexelSite& site : seen.site[floor]) EXPECT_GT(site.origin.x, 0.8f) << "what is seen of it";
+  for (const SamplePoint& point : listed.texels.sample_points[floor]) EXPECT_LT(point.origin.x, 0.8f) << "most of it";
+  for (const SamplePoint& point : seen.sample_points[floor]) EXPECT_GT(point.origin.x, 0.8f) << "what is seen of it";
   EXPECT_NEAR(seen.visible[floor], 0.2, 0.1);
 }
 
@@ -110,7 +110,7 @@ double under_the_hole() {
   return 4 * kHole * kHole * sum / std::pow(kSteps, 4);
 }
 
-TEST(MoreSites, AreDrawnWhereRaysAreMany) {
+TEST(ExtraSamplePoints, AreDrawnWhereRaysAreMany) {
   constexpr std::uint32_t kRays = 1u << 18u;
   const double expected = under_the_hole();
   double squares = 0;
@@ -118,15 +118,16 @@ TEST(MoreSites, AreDrawnWhereRaysAreMany) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     Listed listed(under_a_hole(), 1, seed);
     const Transport transport = listed.transport();
-    const Surroundings around(transport, listed.texels, true, seed);
+    const CacheQuery query(transport, listed.texels, true, seed);
     const std::size_t n = listed.texels.count();
     const std::vector<Vec3> dark(n);
     const CachedLight cached{dark, std::vector<CachedTexel>(n)};
     HalfSums sums(n, false);
-    ASSERT_TRUE((FinalGather{listed.sites(transport), around, cached}.run(listed.floor, kRays, listed.context, sums)));
+    ASSERT_TRUE(
+        (FinalGather{listed.sample_points(transport), query, cached}.run(listed.floor, kRays, listed.context, sums)));
     double light = 0, area = 0;
     for (const std::uint32_t i : listed.floor) {
-      ASSERT_FALSE(listed.texels.has_many[i]);
+      ASSERT_FALSE(listed.texels.occlusion_heavy[i]);
       light += double{listed.texels.area_m2[i]} * sums.mean(i).g, area += listed.texels.area_m2[i];
     }
     const double off = light / area / expected - 1;
