@@ -92,7 +92,7 @@ std::vector<Option> picture_options(PlayArguments& out) {
        "frame's log-average luminance becomes middle grey",
        exposure(out.ev100), Use::kEveryday, "exposure"},
       {"--tonemap", kPicture, "Tone curve: aces rolls highlights off like film, none clips them",
-       choice(out.curve, kToneCurves), Use::kEveryday},
+       choice(out.curve, kToneCurves), Use::kRare},
       {"--show", kPicture,
        "What to show: the image that reflectors see (M), blurred by their roughness (MK), times their reflectance "
        "(MKR), the diffuse light alone (D), or the whole frame (all); or of each texel its illuminance (lux), standard "
@@ -165,7 +165,7 @@ std::vector<Option> offscreen_options(PlayArguments& out) {
       {"--panorama", kOffscreen,
        "Offscreen: all that is seen from the camera's eye, latitude and longitude, 2048x1024 unless --size tells; the "
        "middle is the camera's heading",
-       flag(out.panorama), Use::kEveryday, "", "", "--compare --path --frames"},
+       flag(out.panorama), Use::kRare, "", "", "--compare --path --frames"},
       {"--stats", kOffscreen,
        "Times as JSON. Offscreen of each pass, with counts and the options; of the window, when it closes, how fast "
        "frames came while something moved and how soon the whole one after it",
@@ -216,7 +216,7 @@ std::vector<Option> light_options(PlayArguments& out) {
       {"--lights", kLights,
        "What lamps are set to, from a file that the window keeps: {\"desk\": \"0.3 2700K\", \"hall\": \"off\"}. "
        "--light comes after it",
-       text(out.lights_file, "FILE"), Use::kEveryday, "lights_file"},
+       text(out.lights_file, "FILE"), Use::kRare, "lights_file"},
   };
 }
 
@@ -241,7 +241,7 @@ std::vector<Option> window_options(PlayArguments& out) {
        "be repeated offscreen; all: every camera of the pack",
        texts(out.cameras, "NAME|N|PATH@S|ex,ey,ez,tx,ty,tz|all"), Use::kEveryday},
       {"--panel", kWindow, "Open the panel at once: brightness, quality, times, what is under the pointer",
-       flag(out.panel), Use::kEveryday},
+       flag(out.panel), Use::kRare},
       {"--log-frames", kWindow, "A line on stderr whenever the window shows something else: for scripts that drive it",
        flag(out.log_frames)},
       {"--quality", kWindow,

@@ -16,12 +16,12 @@ std::vector<Option> lens_options(const char* group, LensSettings& out) {
        number(out.frames, 1, 65536), Use::kRare, "accumulate", "", "--compare --panorama"},
       {"--aperture", group,
        "Diameter of the lens, as 25mm (one of 50 mm at f/2): what is before or behind the focus is blurred",
-       length(out.aperture_m), Use::kEveryday, "aperture", "", "--compare --panorama"},
+       length(out.aperture_m), Use::kRare, "aperture", "", "--compare --panorama"},
       {"--focus", group, "How far away things are sharp, along the view. auto: what is in the middle of the picture",
-       length(out.focus_m, "auto"), Use::kEveryday, "focus", "", "", "--aperture"},
+       length(out.focus_m, "auto"), Use::kRare, "focus", "", "", "--aperture"},
       {"--shutter", group,
        "Seconds that the lens is open, as 0.02: what moves is blurred, the eye along --path and movers",
-       number(out.shutter_s, 0, 3600), Use::kEveryday, "shutter", "", "--compare --panorama"},
+       number(out.shutter_s, 0, 3600), Use::kRare, "shutter", "", "--compare --panorama"},
   };
 }
 

@@ -16,7 +16,7 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
        "What reflectors show: as the bake chose, rays marched through their radiance maps, the maps' pixels as points "
        "as Bastos et al. published it, the mirrored scene drawn again, or nothing. Reflectors without maps always show "
        "the mirrored scene",
-       choice(out.frame.reflections, kReflections), Use::kEveryday, "reflections"},
+       choice(out.frame.reflections, kReflections), Use::kRare, "reflections"},
       {"--orders", group,
        "Reflectors on the way of a reflection: 1 shows a mirror in a mirror as its diffuse light only. Without it: 2, "
        "and on while all on the way are mirrors that leave half of the light",
