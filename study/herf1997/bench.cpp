@@ -28,7 +28,7 @@ struct Floating {
   explicit Floating(const Setting& s, double hall = 4)
       : receiver(make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), IVec2(s.texels), DVec3(0, 0, 1))) {
     const DVec3 corner(2 - s.light / 2, 2 - s.light / 2, s.height), x(0, s.light, 0), y(s.light, 0, 0);
-    light = sample_parallelogram({corner, x, y}, Vec3(1), s.samples);
+    light = sample_parallelogram({corner, x, y}, 1, s.samples);
     corners = {corner, corner + x, corner + x + y, corner + y};
     std::mt19937 random(7);
     std::uniform_real_distribution<double> u(0, 1);
@@ -65,7 +65,7 @@ struct Times {
 Times times_of(const Floating& f, CountMethod method, Simd simd = best_simd()) {
   const Occluders occluders = f.occluders();
   SoftShadows shadows({.method = method, .touching = 0, .simd = simd});
-  SoftShadow out;
+  std::vector<float> out;
   Times t;
   t.all = best_ms([&] { shadows.run(occluders, f.receiver, f.light, out); });
   t.view = best_ms([&] { (void)shadows.view(occluders, f.receiver, f.light); }, 0.2);
@@ -96,9 +96,9 @@ void print_samples() {
   std::printf("%9s %10s %12s %10s %10s\n", "samples", "ms", "textures/s", "RMS", "most");
   const auto light_of = [](int samples, bool blocked) {
     const Floating f({.samples = samples});
-    SoftShadow out;
+    std::vector<float> out;
     SoftShadows().run(blocked ? f.occluders() : Occluders(), f.receiver, f.light, out);
-    return out.light[0];
+    return out;
   };
   const std::vector<float> exact = light_of(kMaxLightSamples, true), open = light_of(kMaxLightSamples, false);
   for (const int samples : {1, 4, 16, 64, 256}) {
@@ -135,14 +135,14 @@ void print_weights() {
        {Setting{.light = 0.2, .height = 1}, Setting{}, Setting{.light = 2}, Setting{.light = 1, .height = 0.6}}) {
     const Floating f(s);
     SoftShadows shadows;
-    SoftShadow exact;
+    std::vector<float> exact;
     shadows.run(f.occluders(), f.receiver, f.light, exact);
     const std::vector<std::uint16_t> blocked =
         count_blocked(shadows.block(shadows.view(f.occluders(), f.receiver, f.light), f.receiver));
     const std::vector<float> open = form_factor_light(f.receiver, f.corners, 8);
     double square = 0, most = 0, light = 0;
     for (std::size_t i = 0; i < open.size(); ++i) {
-      const double difference = open[i] * (1 - blocked[i] / static_cast<double>(s.samples)) - exact.light[0][i];
+      const double difference = open[i] * (1 - blocked[i] / static_cast<double>(s.samples)) - exact[i];
       square += difference * difference, light += open[i];
       most = std::max(most, std::abs(difference) / open[i]);
     }

@@ -50,12 +50,7 @@ std::vector<DVec2> jittered_pattern(int count) {
   return points;
 }
 
-bool ShadowLight::one_color() const {
-  return std::ranges::all_of(
-      samples, [&](const ShadowLightSample& s) { return glm::cross(s.power, samples.front().power) == Vec3(0); });
-}
-
-ShadowLight sample_parallelogram(const LightParallelogram& light, const Vec3& radiance, int samples) {
+ShadowLight sample_parallelogram(const LightParallelogram& light, float radiance, int samples) {
   const DVec3 normal = glm::cross(light.x, light.y);
   const double area = glm::length(normal);
   ORIEL_CHECK(area > 0);
@@ -66,7 +61,7 @@ ShadowLight sample_parallelogram(const LightParallelogram& light, const Vec3& ra
   return out;
 }
 
-ShadowLight sample_triangles(const std::vector<LightTriangle>& triangles, const Vec3& radiance, int samples) {
+ShadowLight sample_triangles(const std::vector<LightTriangle>& triangles, float radiance, int samples) {
   double total = 0;
   for (const LightTriangle& t : triangles) total += area(t);
   ORIEL_CHECK(total > 0);

@@ -16,16 +16,14 @@ std::vector<DVec2> jittered_pattern(int count);
 
 struct ShadowLightSample {
   DVec3 position{0};  // world, metres
-  Vec3 power{0};      // radiance times area: the light's texture and colour may differ from sample to sample, cd
+  float power = 0;    // radiance times area: the light's texture may differ from sample to sample, cd
 };
 
-// All samples lie in a plane.
+// All samples lie in a plane, and are of one colour (Herf 1997, section 5.3).
 struct ShadowLight {
   std::vector<ShadowLightSample> samples;
   DVec3 normal{0, 0, 1};  // unit, the side that shines
   bool double_sided = false;
-
-  bool one_color() const;  // every sample's power is a multiple of the first one's
 };
 
 struct LightParallelogram {
@@ -33,12 +31,12 @@ struct LightParallelogram {
   bool double_sided = false;
 };
 // Shines to the side of x × y.
-ShadowLight sample_parallelogram(const LightParallelogram& light, const Vec3& radiance, int samples);
+ShadowLight sample_parallelogram(const LightParallelogram& light, float radiance, int samples);
 
 struct LightTriangle {
   DVec3 a{0}, b{0}, c{0};
 };
 // A flat polygon as triangles of one winding, with `samples` shared out by area, at least one each.
-ShadowLight sample_triangles(const std::vector<LightTriangle>& triangles, const Vec3& radiance, int samples);
+ShadowLight sample_triangles(const std::vector<LightTriangle>& triangles, float radiance, int samples);
 
 }  // namespace oriel::study

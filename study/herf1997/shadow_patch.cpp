@@ -78,7 +78,7 @@ ShadowLight shadow_light(const BrightLight& light, int samples) {
   std::vector<LightTriangle> triangles;
   for (std::size_t i = 0; i + 2 < light.corners.size(); i += 3)
     triangles.push_back({DVec3(light.corners[i]), DVec3(light.corners[i + 1]), DVec3(light.corners[i + 2])});
-  ShadowLight out = sample_triangles(triangles, Vec3(1), samples);
+  ShadowLight out = sample_triangles(triangles, 1, samples);
   out.double_sided = light.two_sided;
   return out;
 }
@@ -154,9 +154,7 @@ void PatchPainter::paint(const Occluders& still, const ShadowLight& light, doubl
   const OccluderView scene = shadows_.view(still, receiver, light);
   taken_.remove(shadows_.block(scene, receiver));
   taken_.invert();
-  std::vector<float> powers(lamp.apexes.size());
-  for (std::size_t i = 0; i < powers.size(); ++i) powers[i] = light.samples[lamp.apex_of[i]].power.x;
-  LightSum(lamp, receiver, light, powers).run(taken_, best_simd(), patch.lux);
+  LightSum(lamp, receiver, light).run(taken_, best_simd(), patch.lux);
 }
 
 }  // namespace oriel::study

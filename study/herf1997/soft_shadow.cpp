@@ -1,6 +1,6 @@
 #include "study/herf1997/soft_shadow.h"
 
-#include <bit>
+#include <algorithm>
 
 namespace oriel::study {
 namespace {
@@ -53,22 +53,10 @@ const BlockedRows& SoftShadows::block(const OccluderView& view, const ShadowRece
 }
 
 void SoftShadows::run(const Occluders& occluders, const ShadowReceiver& receiver, const ShadowLight& light,
-                      SoftShadow& out) {
+                      std::vector<float>& out) {
   const OccluderView seen = view(occluders, receiver, light);
-  const BlockedRows& rows = block(seen, receiver);
-  out.width = receiver.width, out.height = receiver.height, out.faces = seen.faces.size() + seen.beside_light.size();
-  out.one_color = light.one_color();
-  const Vec3 first = light.samples.empty() ? Vec3(0) : light.samples.front().power;
-  out.color = out.one_color && max_component(first) > 0 ? first / max_component(first) : Vec3(1);
-  std::vector<float> powers(seen.apexes.size());
-  for (int c = 0; c < (out.one_color ? 1 : 3); ++c) {
-    for (std::size_t i = 0; i < powers.size(); ++i) {
-      const Vec3& power = light.samples[seen.apex_of[i]].power;
-      powers[i] = out.one_color ? max_component(power) : power[c];
-    }
-    out.light[c].resize(static_cast<std::size_t>(receiver.width) * static_cast<std::size_t>(receiver.height));
-    LightSum(seen, receiver, light, powers).run(rows, options_.simd, out.light[c]);
-  }
+  out.resize(static_cast<std::size_t>(receiver.width) * static_cast<std::size_t>(receiver.height));
+  LightSum(seen, receiver, light).run(block(seen, receiver), options_.simd, out);
 }
 
 }  // namespace oriel::study

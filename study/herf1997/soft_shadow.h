@@ -1,7 +1,7 @@
 // Soft shadow textures: the light of a flat lamp on a planar receiver, averaged over hard shadows of its samples.
 //
-// Herf 1997, "Efficient Generation of Soft Shadow Textures" (CMU-CS-97-138); docs/shadows.md tells what is the paper's
-// and what is ours.
+// Herf 1997, "Efficient Generation of Soft Shadow Textures" (CMU-CS-97-138); docs/study/herf1997.md tells what is the
+// paper's and what is ours.
 #pragma once
 
 #include "study/herf1997/count_methods.h"
@@ -16,22 +16,15 @@ struct SoftShadowOptions {
   Simd simd = best_simd();
 };
 
-struct SoftShadow {
-  int width = 0, height = 0;
-  std::array<std::vector<float>, 3>
-      light;  // irradiance by channel, lux for powers in candela; one channel where one_color
-  bool one_color = false;
-  Vec3 color{1};          // of that channel
-  std::size_t faces = 0;  // that were left after culling
-};
-
 // Keeps its memory from texture to texture. Not for two threads at once.
 class SoftShadows {
  public:
   explicit SoftShadows(const SoftShadowOptions& options = {}) : options_(options) {}
 
   void set_touching(double touching) { options_.touching = touching; }
-  void run(const Occluders& occluders, const ShadowReceiver& receiver, const ShadowLight& light, SoftShadow& out);
+  // Irradiance by texel, lux for powers in candela: width * height.
+  void run(const Occluders& occluders, const ShadowReceiver& receiver, const ShadowLight& light,
+           std::vector<float>& out);
 
   // The first half of it: which texel centres which samples do not reach.
   const BlockedRows& block(const OccluderView& view, const ShadowReceiver& receiver);

@@ -62,7 +62,7 @@ struct ShadowScene {
   }
   // Samples at places of whole units, some of them in one place.
   void light_over(const DVec3& corner, const DVec3& size, int samples) {
-    light = sample_parallelogram({corner, DVec3(size.x, 0, 0), DVec3(0, size.y, 0), true}, Vec3(1), samples);
+    light = sample_parallelogram({corner, DVec3(size.x, 0, 0), DVec3(0, size.y, 0), true}, 1, samples);
     for (ShadowLightSample& s : light.samples) s.position = round(s.position);
   }
 };

@@ -18,25 +18,21 @@ double weight(const ShadowReceiver& receiver, const ShadowLight& light, std::siz
 // The largest difference from the sum over samples in double precision, over the largest light without shadows.
 double error_of(const ShadowReceiver& receiver, const ShadowLight& light, const Occluders& occluders, Simd simd) {
   SoftShadows shadows({.simd = simd});
-  SoftShadow out;
+  std::vector<float> out;
   shadows.run(occluders, receiver, light, out);
   const OccluderView view = shadows.view(occluders, receiver, light);
   const BlockedRows& rows = shadows.block(view, receiver);
   double worst = 0, most = 0;
   for (int y = 0; y < receiver.height; ++y)
     for (int x = 0; x < receiver.width; ++x) {
-      DVec3 sum(0), open(0);
+      double sum = 0, open = 0;
       for (std::size_t s = 0; s < view.apexes.size(); ++s) {
-        const DVec3 part = DVec3(light.samples[view.apex_of[s]].power) *
-                           weight(receiver, light, view.apex_of[s], receiver.center_of(x, y));
+        const double part = double{light.samples[view.apex_of[s]].power} *
+                            weight(receiver, light, view.apex_of[s], receiver.center_of(x, y));
         open += part;
         if (!rows.blocked(static_cast<int>(s), x, y)) sum += part;
       }
-      for (int c = 0; c < 3; ++c) {
-        const double found =
-            out.one_color ? out.light[0][y * receiver.width + x] * out.color[c] : out.light[c][y * receiver.width + x];
-        worst = std::max(worst, std::abs(found - sum[c])), most = std::max(most, open[c]);
-      }
+      worst = std::max(worst, std::abs(double{out[y * receiver.width + x]} - sum)), most = std::max(most, open);
     }
   return worst / most;
 }
@@ -61,16 +57,15 @@ TEST_P(LightSums, AreThoseOfEverySample) {
     const ShadowReceiver receiver = make_shadow_receiver(scale * DVec3(-0.1, 0.05, 0.0), scale * DVec3(1.0, 0.1, 0.02),
                                                          scale * DVec3(0.2, 0.9, -0.01), {100, 70}, DVec3(0, 0, 1));
     ShadowLight light = sample_parallelogram(
-        {scale * DVec3(0.4, 0.3, 1.0), scale * DVec3(0.1, 0.3, 0.1), scale * DVec3(0.3, -0.1, 0.05)}, Vec3(3, 2, 1),
-        samples);
+        {scale * DVec3(0.4, 0.3, 1.0), scale * DVec3(0.1, 0.3, 0.1), scale * DVec3(0.3, -0.1, 0.05)}, 3, samples);
     const Occluders boxes = some_boxes(scale);
     for (const Simd simd : {Simd::kBaseline, Simd::kAvx2, Simd::kAvx512}) {
       if (simd > best_simd()) continue;
       EXPECT_LT(error_of(receiver, light, boxes, simd), 2e-6) << samples;
       EXPECT_LT(error_of(receiver, light, {}, simd), 2e-6) << samples;
     }
-    std::mt19937 random(5);  // H3: samples of their own colours
-    for (ShadowLightSample& s : light.samples) s.power *= Vec3(random() % 7, 1, random() % 3);
+    std::mt19937 random(5);  // samples of their own strength
+    for (ShadowLightSample& s : light.samples) s.power *= static_cast<float>(random() % 7);
     EXPECT_LT(error_of(receiver, light, boxes, best_simd()), 2e-6) << samples;
   }
 }
@@ -93,21 +88,21 @@ DMat4 pyramid_to_box(const ShadowReceiver& receiver, const DVec3& apex) {
 TEST(LightSum, OfALowLightIsSummedInFull) {
   const ShadowReceiver receiver =
       make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {64, 64}, DVec3(0, 0, 1));
-  const ShadowLight light = sample_parallelogram({{1, 1, 0.02}, {0, 1, 0}, {1, 0, 0.3}}, Vec3(1), 16);
+  const ShadowLight light = sample_parallelogram({{1, 1, 0.02}, {0, 1, 0}, {1, 0, 0.3}}, 1, 16);
   EXPECT_LT(error_of(receiver, light, {}, best_simd()), 4e-6);
 }
 
 TEST(LightSum, IsTheSameOnEveryInstructionSet) {
   const ShadowReceiver receiver =
       make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {70, 50}, DVec3(0, 0, 1));
-  const ShadowLight light = sample_parallelogram({{1, 1, 3}, {0, 1, 0}, {1, 0, 0.3}, true}, Vec3(1), 40);
+  const ShadowLight light = sample_parallelogram({{1, 1, 3}, {0, 1, 0}, {1, 0, 0.3}, true}, 1, 40);
   const Occluders boxes = some_boxes(3);
-  SoftShadow first, now;
+  std::vector<float> first, now;
   SoftShadows({.simd = Simd::kBaseline}).run(boxes, receiver, light, first);
   for (const Simd simd : {Simd::kAvx2, Simd::kAvx512}) {
     if (simd > best_simd()) continue;
     SoftShadows({.simd = simd}).run(boxes, receiver, light, now);
-    EXPECT_EQ(now.light, first.light);
+    EXPECT_EQ(now, first);
   }
 }
 
@@ -119,11 +114,10 @@ TEST(LightSum, ConvergesToTheClosedForm) {
   const std::vector<float> exact = form_factor_light(receiver, corners, 1);
   std::array<double, 2> error{};
   for (int k = 0; k < 2; ++k) {
-    const ShadowLight light = sample_parallelogram({corners[0], {0, 2, 0}, {2, 0, 0}}, Vec3(1), k == 0 ? 16 : 1024);
-    SoftShadow out;
+    const ShadowLight light = sample_parallelogram({corners[0], {0, 2, 0}, {2, 0, 0}}, 1, k == 0 ? 16 : 1024);
+    std::vector<float> out;
     SoftShadows().run({}, receiver, light, out);
-    for (std::size_t i = 0; i < exact.size(); ++i)
-      error[k] = std::max(error[k], std::abs(out.light[0][i] / exact[i] - 1.0));
+    for (std::size_t i = 0; i < exact.size(); ++i) error[k] = std::max(error[k], std::abs(out[i] / exact[i] - 1.0));
   }
   EXPECT_LT(error[0], 0.1);
   EXPECT_LT(error[1], 3e-3);
@@ -187,11 +181,11 @@ TEST(LightPattern, CellsHoldOnePointEach) {
 
 TEST(LightPattern, TrianglesShareTheAreaOfTheLight) {
   const ShadowLight light =
-      sample_triangles({{{0, 0, 1}, {2, 0, 1}, {2, 2, 1}}, {{0, 0, 1}, {2, 2, 1}, {0, 2, 1}}}, Vec3(5), 33);
+      sample_triangles({{{0, 0, 1}, {2, 0, 1}, {2, 2, 1}}, {{0, 0, 1}, {2, 2, 1}, {0, 2, 1}}}, 5, 33);
   EXPECT_EQ(light.samples.size(), 33u);
-  Vec3 sum(0);
-  for (const ShadowLightSample& s : light.samples) sum += s.power;
-  EXPECT_NEAR(sum.x, 20, 1e-4);
+  double sum = 0;
+  for (const ShadowLightSample& s : light.samples) sum += double{s.power};
+  EXPECT_NEAR(sum, 20, 1e-4);
 }
 
 }  // namespace

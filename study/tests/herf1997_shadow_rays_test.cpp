@@ -80,7 +80,7 @@ TEST(ShadowRays, AcrossTheLightsPlaneAndBehindTheReceiver) {
 
 TEST(ShadowRays, ALightThatStandsOnEdgeToTheReceiver) {
   ShadowScene scene;
-  scene.light = sample_parallelogram({{-5, 10, -6}, {0, 20, 0}, {0, 0, 40}}, Vec3(1), 16);  // partly behind it
+  scene.light = sample_parallelogram({{-5, 10, -6}, {0, 20, 0}, {0, 0, 40}}, 1, 16);  // partly behind it
   for (ShadowLightSample& s : scene.light.samples) s.position = round(s.position);
   scene.add_box({10, 10, 4}, {20, 20, 14});
   scene.add_box({-4, 12, 2}, {2, 18, 40});

@@ -62,7 +62,7 @@ const Arrows kRestsOn = {
     {"player/output", {"player/session"}},
     {"player/window", {"player/output"}},
     {"player/app", {"player/window"}},
-    {"preview/frame", {"bake/import", "bake/reference", "player/passes"}},  // where baker and player meet
+    {"preview/frame", {"bake/import", "bake/reference", "player/passes", "formats/shadow"}},  // they meet here
     {"preview", {"preview/frame", "bake/run", "player/window"}},
     {"scenes/kit", {"formats/core"}},
     {"scenes", {"scenes/kit", "formats/image", "formats/cli"}},
