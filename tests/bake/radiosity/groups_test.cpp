@@ -12,10 +12,10 @@ using test::bake;
 using test::Baked;
 using test::SceneParts;
 
-constexpr double kError = 0.03;
+constexpr double kGroupsError = 0.03;
 
-RadiosityOptions options() {
-  return test::cached_options(kError);
+RadiosityOptions group_options() {
+  return test::cached_options(kGroupsError);
 }
 
 // Two rooms with a door between them, a polished floor, a lamp of each colour in one of them, a point light in the
@@ -54,7 +54,7 @@ Scene rooms(bool groups, std::uint32_t only = ~0u) {
 }
 
 const Baked& together() {
-  static const Baked baked = bake(rooms(true), 0.15f, options());
+  static const Baked baked = bake(rooms(true), 0.15f, group_options());
   return baked;
 }
 
@@ -62,7 +62,7 @@ const Baked& together() {
 TEST(LightGroups, SumToAllLightWhichTheyDoNotChange) {
   const Radiosity& light = together().radiosity;
   ASSERT_EQ(light.groups.size(), 4u);
-  const Baked plain = bake(rooms(false), 0.15f, options());
+  const Baked plain = bake(rooms(false), 0.15f, group_options());
   EXPECT_TRUE(plain.radiosity.groups.empty());
   for (std::size_t p = 0; p < light.pages.size(); ++p) {
     EXPECT_EQ(light.pages[p].irradiance, plain.radiosity.pages[p].irradiance);
@@ -88,15 +88,15 @@ TEST(LightGroups, AreWhatTheirLampsGiveAlone) {
   const Radiosity& light = together().radiosity;
   const double floor = 0.1 * luminance(light.report.mean);
   for (std::uint32_t g = 0; g < 4; ++g) {
-    const Baked alone = bake(rooms(false, g), 0.15f, options());
+    const Baked alone = bake(rooms(false, g), 0.15f, group_options());
     double sum = 0, squares = 0, bias = 0, count = 0;
     alone.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t) {
       const auto p = static_cast<std::size_t>(&page - alone.radiosity.pages.data());
       const double one = luminance(page.irradiance[t]), off = luminance(light.groups[g][p].irradiance[t]) - one;
       squares += off * off / (one * one + floor * floor), bias += off, sum += one, ++count;
     });
-    EXPECT_LT(std::sqrt(squares / count), std::sqrt(2.0) * kError) << g;
-    EXPECT_LT(std::abs(bias / sum), kError / 2) << g;
+    EXPECT_LT(std::sqrt(squares / count), std::sqrt(2.0) * kGroupsError) << g;
+    EXPECT_LT(std::abs(bias / sum), kGroupsError / 2) << g;
   }
 }
 
