@@ -63,7 +63,7 @@ std::string light_line(const RadiosityReport& r) {
     line += fmt::format("; measured {} on {} held-out pixels, {}", measured_text(c), c.pixels, brightness_text(c));
   if (r.reuse.asked > 0)
     line += fmt::format("; {} of {} tiles keep the light of the bake before, with {:.2g} % of error in all of it",
-                        r.reuse.kept, r.reuse.tiles, 100 * r.reuse.error);
+                        r.reuse.reused, r.reuse.tiles, 100 * r.reuse.error);
   if (r.refinements > 0) line += fmt::format("; refined {} times after that", r.refinements);
   return line;
 }

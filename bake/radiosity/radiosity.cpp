@@ -204,7 +204,7 @@ Result<std::vector<LightmapPage>> indirect_pages(const RadiosityTask& task, cons
     const std::size_t texels = known->texels.count();
     const Estimate none{std::vector<Vec3>(texels), std::vector<Vec3>(texels)};
     Estimate reflected = known->reflected;
-    for (std::size_t i = 0; i < known->beside.size(); ++i) reflected.value[i] -= known->beside[i];
+    for (std::size_t i = 0; i < known->additional.size(); ++i) reflected.value[i] -= known->additional[i];
     write_texels({known->texels, none, reflected, {}, {}}, light);
   } else {
     estimator.write(light);
@@ -282,12 +282,12 @@ Result<std::optional<Goal>> next_goal(const RadiosityTask& task, const Goal& las
     c.texel_error = texels.relative_error, c.rays += texels.rays;
     const double of_texels = c.texel_error * c.texel_error;
     const double looked_up = of_texels - noise2 - report.seams.moved * report.seams.moved;
-    next.longer_look_up = looked_up > kUnexplained * asked2 && square - of_texels < asked2;
-    if (next.longer_look_up) stays -= (1 - kLongerLeaves) * looked_up;
+    next.longer_paths = looked_up > kUnexplained * asked2 && square - of_texels < asked2;
+    if (next.longer_paths) stays -= (1 - kLongerLeaves) * looked_up;
   }
-  if (!next.longer_look_up && asked2 <= stays) return std::nullopt;
+  if (!next.longer_paths && asked2 <= stays) return std::nullopt;
   next.error = std::max(std::sqrt(std::max(asked2 - stays, 0.0)), kSharpest * options.error);
-  if (!next.longer_look_up && next.error >= last.error) return std::nullopt;
+  if (!next.longer_paths && next.error >= last.error) return std::nullopt;
   return next;
 }
 

@@ -197,7 +197,7 @@ Json movers_json(std::span<const MoverReport> movers) {
 
 Json reuse_json(const ReuseReport& r) {
   if (r.asked <= 0) return Json();
-  return {{"asked", r.asked}, {"tiles", r.tiles}, {"kept", r.kept}, {"relative_error", r.error}};
+  return {{"asked", r.asked}, {"tiles", r.tiles}, {"kept", r.reused}, {"relative_error", r.error}};
 }
 
 Json reuse_json(const MapReuse& r) {
