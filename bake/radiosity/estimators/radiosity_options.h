@@ -86,25 +86,25 @@ struct SeamReport {
 
 // A frame pixel with a large error.
 struct WorstPixel {
-  std::uint32_t triangle = 0;   // that it shows
+  std::uint32_t triangle = 0;   // visible in it
   Vec3 position{0};             // scene space, m
   double baked = 0, paths = 0;  // luminance, cd/m²
-  double share = 0;             // of the squared error of all pixels compared, at most 1: their noise may be negative
+  double share = 0;             // of the squared error of all pixels, at most 1
 };
 
-// What unbiased paths at held-out pixels say of the light that frames show (certificate.h).
-struct Certificate {
+// The error of frame light against unbiased paths at held-out pixels (held_out_error.h).
+struct HeldOutError {
   std::size_t pixels = 0;                // compared
-  std::uint64_t paths = 0;               // from the points of all of them
+  std::uint64_t paths = 0;               // of all pixels
   double bias = 0;                       // Σ (baked - paths) / Σ paths, luminance
-  double bias_interval = 0;              // the truth lies within bias ± this with 95 % certainty
-  double relative_error = 0;             // rms over pixels (texels/frame_error.h), free of the paths' own noise
-  double error_low = 0, error_high = 0;  // the rms of all pixels lies between with 95 % certainty
-  // The same of the texels that pixels read, each as a whole: what is beyond that is their size and interpolation.
-  // Asked where the error was missed and that may be why; 0: not asked.
+  double bias_interval = 0;              // 95 % confidence: bias ± this
+  double relative_error = 0;             // rms over pixels (texels/frame_error.h), without the paths' noise
+  double error_low = 0, error_high = 0;  // 95 % confidence interval of the rms
+  // The same for the means of the texels that pixels read: the rest is due to texel size and interpolation. Measured
+  // where the error was missed and this may be the reason; else 0.
   double texel_error = 0;
   std::uint64_t rays = 0;
-  std::vector<WorstPixel> worst;  // eight at most, worst first; none holds less than a hundredth
+  std::vector<WorstPixel> worst;  // at most eight, the worst first, each with 1 % of the squared error or more
 };
 
 // Reuse of the previous bake's light after an edit (RadiosityOptions::reuse_error).
@@ -126,7 +126,7 @@ struct DetailReport {
 struct RadiosityReport {
   DetailReport detail;
   ReuseReport reuse;
-  Certificate certificate;  // of the cached estimator
+  HeldOutError held_out_error;  // of the cached estimator
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones
   std::size_t buried = 0;
