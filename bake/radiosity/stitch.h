@@ -14,9 +14,9 @@ namespace oriel {
 //
 // Limits: no channel of a texel changes by more than its standard error or a third of its light, whichever is larger,
 // plus 3 % of its light, plus up to two fifths for the fraction without surface. The rms change over all surfaces,
-// relative to light (and 1 % of the mean), is at_most: charts of a texel or two cannot match all the light along their
-// outline, and a mended seam would be an error elsewhere. The result is finite and not negative. Empty texels are
-// neither read nor changed. pages: filled and dilated. The caller sets SeamReport::energy_change.
+// relative to light (and 1 % of the mean), is at most `at_most`: charts of a texel or two cannot match all the light
+// along their outline, and a mended seam would be an error elsewhere. The result is finite and not negative. Empty
+// texels are neither read nor changed. pages: filled and dilated. The caller sets SeamReport::energy_change.
 SeamReport stitch(const Seams& seams, std::span<const TexelMapPage> texel_map, double at_most,
                   std::vector<LightmapPage>& pages);
 
