@@ -40,7 +40,7 @@ struct BakeArguments {
 };
 
 // Of the lightmap beside unbiased paths.
-std::string brightness_text(const Certificate& c) {
+std::string brightness_text(const HeldOutError& c) {
   if (std::fabs(c.bias) <= c.bias_interval)
     return fmt::format("as bright on the mean as unbiased paths, to {:.2g} %", 100 * c.bias_interval);
   return fmt::format("on the mean {:.2g} ± {:.2g} % {} than unbiased paths", 100 * std::fabs(c.bias),
@@ -48,7 +48,7 @@ std::string brightness_text(const Certificate& c) {
 }
 
 // A measurement that cannot be told from its own noise is a bound.
-std::string measured_text(const Certificate& c) {
+std::string measured_text(const HeldOutError& c) {
   if (c.error_low <= 0)
     return fmt::format("at most {:.2g} % (less is hidden by the noise of its paths)", 100 * c.error_high);
   return fmt::format("{:.2g} % ({:.2g} to {:.2g} %)", 100 * c.relative_error, 100 * c.error_low, 100 * c.error_high);
@@ -59,11 +59,11 @@ std::string light_line(const RadiosityReport& r) {
   if (r.detail.unresolved > 0)
     line +=
         fmt::format(" ({:.2g} % noise, {:.2g} % between texels)", 100 * r.relative_error, 100 * r.detail.unresolved);
-  if (const Certificate& c = r.certificate; c.pixels > 0)
+  if (const HeldOutError& c = r.held_out_error; c.pixels > 0)
     line += fmt::format("; measured {} on {} held-out pixels, {}", measured_text(c), c.pixels, brightness_text(c));
   if (r.reuse.asked > 0)
     line += fmt::format("; {} of {} tiles keep the light of the bake before, with {:.2g} % of error in all of it",
-                        r.reuse.kept, r.reuse.tiles, 100 * r.reuse.error);
+                        r.reuse.reused, r.reuse.tiles, 100 * r.reuse.error);
   if (r.refinements > 0) line += fmt::format("; refined {} times after that", r.refinements);
   return line;
 }

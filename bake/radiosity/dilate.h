@@ -1,4 +1,4 @@
-// Filling of texels that no light was baked for, so that bilinear filtering never reads black beside a chart.
+// Filling of texels without light of their own, so that bilinear filtering never reads black at a chart's border.
 #pragma once
 
 #include "bake/atlas/texel_map.h"
@@ -6,11 +6,11 @@
 
 namespace oriel {
 
-// Buried texels take the mean of their chart's valid neighbours, spreading inwards; their state stays kBuried. A chart
-// that is buried whole stays black.
+// Fills buried texels with the mean of valid neighbours in their chart, spreading inwards. Their state stays kBuried. A
+// chart without a valid texel stays black.
 void fill_buried(const Atlas& atlas, const TexelMapPage& map, LightmapPage& page);
 
-// Empty texels within `texels` steps of a filled one take the mean of their filled neighbours and become kDilated.
+// Fills empty texels within `texels` steps of a filled one with the mean of their filled neighbours; state kDilated.
 void dilate(int texels, LightmapPage& page);
 
 }  // namespace oriel

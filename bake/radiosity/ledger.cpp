@@ -17,11 +17,11 @@ constexpr std::uint64_t kRaysAParticle = 6, kLeastParticles = 4096,
 constexpr std::size_t kItemsATask = 64;          // particles or texels a task
 constexpr double kCertain = 3;                   // standard errors
 
-// Sum and standard error of independent shares of it.
+// A sum with its standard error, from independent samples.
 class Sum {
  public:
   void add(double x) { sum_ += x, squares_ += x * x, ++count_; }
-  // Adds what was summed, whose shares are of the whole where there are `count_` of them.
+  // Adds the mean of the samples, each of which estimates the whole.
   void into(Lumens& lumens) const {
     const double n = std::max(1.0, count_), mean = sum_ / n;
     const double variance = std::max(0.0, squares_ / n - mean * mean) / std::max(1.0, n - 1);
@@ -36,7 +36,7 @@ class Sum {
 void add_kind(SourceKind kind, std::span<const Fate> fates, double lamps_lm, Ledger& ledger) {
   Sum afar, absorbed, escaped, behind, guard, missing, texels;
   for (const Fate& f : fates) {
-    // What lamps send is known: noise of choosing points on them is the particles' own.
+    // Emission of lamps is known exactly: samples have noise by their points.
     const double emitted = kind == SourceKind::kNear ? lamps_lm : f.emitted;
     if (kind != SourceKind::kNear) afar.add(f.emitted);
     absorbed.add(f.absorbed);
@@ -55,36 +55,38 @@ void add_kind(SourceKind kind, std::span<const Fate> fates, double lamps_lm, Led
   texels.into(ledger.on_texels);
 }
 
-ToldTexels told_texels(const Atlas& atlas, std::span<const TexelMapPage> texel_map, const Radiosity& radiosity) {
-  ToldTexels out{atlas, texel_map, {}};
+EvaluatedTexels evaluated_texels(const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                                 const Radiosity& radiosity) {
+  EvaluatedTexels out{atlas, texel_map, {}};
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
     const TexelMapPage& map = texel_map[p];
-    std::vector<bool>& told = out.told.emplace_back(std::size_t{map.width} * map.height);
+    std::vector<bool>& evaluated = out.evaluated.emplace_back(std::size_t{map.width} * map.height);
     for (std::size_t i = 0; i < map.texel.size(); ++i)
-      told[map.texel[i]] = radiosity.pages[p].state[map.texel[i]] == TexelState::kValid && radiosity.visible[p][i] >= 1;
+      evaluated[map.texel[i]] =
+          radiosity.pages[p].state[map.texel[i]] == TexelState::kValid && radiosity.visible[p][i] >= 1;
   }
   return out;
 }
 
-// What told texels keep of their light, share_kept() at a point of each.
-Result<double> kept_by_lightmap(const Scene& scene, const ToldTexels& texels, const Radiosity& radiosity,
-                                Context& context) {
+// Flux absorbed at evaluated texels by the lightmap, with absorptance() at a point of each, lm.
+Result<double> absorbed_by_lightmap(const Scene& scene, const EvaluatedTexels& texels, const Radiosity& radiosity,
+                                    Context& context) {
   double sum = 0;
   for (std::size_t p = 0; p < texels.map.size(); ++p) {
     const TexelMapPage& map = texels.map[p];
     const LightmapPage& page = radiosity.pages[p];
-    std::vector<double> kept((map.texel.size() + kItemsATask - 1) / kItemsATask);
-    ORIEL_TRY_VOID(parallel_for(context, "", kept.size(), [&](std::size_t run) {
+    std::vector<double> absorbed_by_run((map.texel.size() + kItemsATask - 1) / kItemsATask);
+    ORIEL_TRY_VOID(parallel_for(context, "", absorbed_by_run.size(), [&](std::size_t run) {
       for (std::size_t i = run * kItemsATask; i < std::min(map.texel.size(), (run + 1) * kItemsATask); ++i) {
-        if (!texels.told[p][map.texel[i]]) continue;
+        if (!texels.evaluated[p][map.texel[i]]) continue;
         Sampler sampler(context.seed, p << 32u | i, 0);
         const Vec2 u = sampler.next2();
         const TexelPoint at = sample_texel(texels.atlas, map, i, Vec3(u, sampler.next1()));
-        const Vec3 light = page.irradiance[map.texel[i]] * share_kept(shade_point(scene, at.triangle, at.barycentric));
-        kept[run] += luminance(DVec3(light)) * texel_area_m2(scene, texels.atlas, map, i);
+        const Vec3 light = page.irradiance[map.texel[i]] * absorptance(shade_point(scene, at.triangle, at.barycentric));
+        absorbed_by_run[run] += luminance(DVec3(light)) * texel_area_m2(scene, texels.atlas, map, i);
       }
     }));
-    for (const double part : kept) sum += part;
+    for (const double part : absorbed_by_run) sum += part;
   }
   return sum;
 }
@@ -109,7 +111,7 @@ Result<Ledger> keep_ledger(const LightmapScene& scene, const Radiosity& radiosit
                            Context& context) {
   const auto& [transport, atlas, texel_map] = scene;
   Ledger ledger;
-  const ToldTexels texels = told_texels(atlas, texel_map, radiosity);
+  const EvaluatedTexels texels = evaluated_texels(atlas, texel_map, radiosity);
   const Sources sources(transport.accel.scene(), transport.lights);
   if (sources.kinds().empty()) return ledger;
   ledger.lamps_lm = luminance(transport.lights.power());
@@ -131,7 +133,7 @@ Result<Ledger> keep_ledger(const LightmapScene& scene, const Radiosity& radiosit
     ledger.particles += fates.size();
   }
   ledger.rays = rays;
-  ORIEL_TRY(ledger.lightmap_lm, kept_by_lightmap(transport.accel.scene(), texels, radiosity, context));
+  ORIEL_TRY(ledger.lightmap_lm, absorbed_by_lightmap(transport.accel.scene(), texels, radiosity, context));
   return ledger;
 }
 

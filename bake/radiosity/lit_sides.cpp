@@ -14,14 +14,14 @@
 namespace oriel {
 namespace {
 
-constexpr double kLit = 0.01;  // of the other side's mean
+constexpr double kLit = 0.01;  // of the other side's mean: above it a side is lit
 // Points of a part, one path from each of their sides: enough to find light that one path in a hundred meets. Fewer
 // where there are so many parts that all of them together would exceed kAllPoints; never less than kFewPoints.
 constexpr std::size_t kRaysAPoint = 10;  // on both sides, about
 constexpr std::size_t kPoints = 256, kFewPoints = 8, kFirstPoints = 2, kAllPoints = std::size_t{1} << 17;
 constexpr std::size_t kMostPatches = 4096;
-constexpr double kFinestCells = 256;  // of patches, across the scene
-constexpr int kMostBounces = 6;       // light that needs more is dim beside what the other side gets
+constexpr double kFinestCells = 256;  // cells of patches, across the scene
+constexpr int kMostBounces = 6;       // light with more bounces is dim compared with the other side's
 
 // The double-sided triangles, part by part.
 struct Parts {
@@ -114,7 +114,7 @@ Parts in_patches(const Scene& scene, Parts parts) {
       const auto key = [&](double v) { return static_cast<std::int64_t>(std::clamp(v, -1e9, 1e9)); };
       patches[{surface, facing(shape.normal), key(at.x), key(at.y), key(at.z)}].push_back(order[k]);
     }
-    if (cell > extent) break;  // a patch a surface and facing
+    if (cell > extent) break;  // one patch for each surface and facing
   }
   Parts out;
   const auto add = [&](std::uint32_t part) {
@@ -132,7 +132,7 @@ Parts in_patches(const Scene& scene, Parts parts) {
   return out;
 }
 
-// The light on one side of a part, and whether eyes see it.
+// The light on one side of a part, and its visibility to views.
 struct SideLight {
   double sum = 0, max = 0;
   bool seen = false;
@@ -146,7 +146,7 @@ struct SideLight {
   }
 };
 
-// How sides are told apart.
+// Parameters of lit_sides().
 struct SideProbe {
   const Transport& transport;
   const ViewSamples& views;
@@ -177,8 +177,7 @@ LitSides lit_sides(const SideProbe& probe, std::span<const std::uint32_t> part, 
       const Vec3& normal = point.geometric_normal;
       side->seen = views.in_sight(spawn_origin(point, normal), normal, nearest, rays);
     }
-    // Most double-sided things in the light show it at once: what is found to be lit stays so however many points
-    // follow.
+    // Stops early: a side that is lit by the points so far stays lit.
     if (k + 1 >= kFirstPoints && std::has_single_bit(k + 1) && front.is_lit_against(back, k + 1) &&
         back.is_lit_against(front, k + 1))
       return LitSides::kBoth;
@@ -206,8 +205,8 @@ Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Ve
     return traced;
   };
   loop.results = [&](std::size_t i, Archive& archive) { archive(of_part[i]); };
-  if (const Status judged = parallel_units({context, &rays}, loop); !judged && context.stop)
-    return tl::unexpected(judged.error());
+  if (const Status evaluated = parallel_units({context, &rays}, loop); !evaluated && context.stop)
+    return tl::unexpected(evaluated.error());
   FoundSides found;
   found.sides.assign(transport.accel.scene().triangles.size(), LitSides::kFront);
   for (std::size_t i = 0; i < parts.count(); ++i) {

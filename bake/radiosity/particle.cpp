@@ -27,7 +27,7 @@ double lumens(const Vec3& power) {
 
 class ParticleTracer {
  public:
-  ParticleTracer(const Transport& transport, const ToldTexels& texels, const Particle& particle, Sampler& sampler,
+  ParticleTracer(const Transport& transport, const EvaluatedTexels& texels, const Particle& particle, Sampler& sampler,
                  std::uint64_t& rays)
       : t_(transport),
         texels_(texels),
@@ -48,7 +48,7 @@ class ParticleTracer {
       if (!hit) break;
       const SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray_.direction);
       absorb(hit);
-      tell_texel(surface);
+      add_to_texel(surface);
       if (passes_ == kMaxPasses) return lose(fate_.lost_guard);
       if (surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage) {
         ray_.origin = spawn_origin(surface, ray_.direction);
@@ -68,7 +68,7 @@ class ParticleTracer {
   }
 
  private:
-  // What the glass takes that the particle came through.
+  // Absorbs light in the glass that the particle came through.
   void absorb(const Hit& hit) {
     const double came = lumens(power_);
     power_ *= medium_.passed(t_.accel.scene(), hit);
@@ -80,15 +80,15 @@ class ParticleTracer {
     return fate_;
   }
 
-  // Irradiance in texels goes by the interpolated normal, which the particle knows nothing of.
-  void tell_texel(const SurfacePoint& surface) {
-    if (!surface.front || !texels_.hold(surface.triangle, surface.barycentric)) return;
+  // Texels have irradiance by the interpolated normal, so the light is scaled by the cosines.
+  void add_to_texel(const SurfacePoint& surface) {
+    if (!surface.front || !texels_.contains(surface.triangle, surface.barycentric)) return;
     const SurfacePoint on_texel = point_on_side(t_.accel.scene(), surface.triangle, surface.barycentric);
     const Vec3 wi = -ray_.direction;
     const float cosine = glm::dot(on_texel.geometric_normal, wi);
     if (!(cosine > 0)) return;
     const float tilt = Shading(on_texel, on_texel.normal).cosine(wi) / cosine;
-    fate_.on_texels += lumens(power_ * share_kept(surface.shade)) * tilt;
+    fate_.on_texels += lumens(power_ * absorptance(surface.shade)) * tilt;
   }
 
   // Chooses the next ray; power_ becomes what goes on along it.
@@ -118,7 +118,7 @@ class ParticleTracer {
       passes_ = 0;
     } else {
       const Vec3 wo = shading.above(sample->wi);
-      // Facets within glass turn light and lose none.
+      // Scattering by facets within glass conserves energy.
       const float turned = surface.shade.inside ? 1 : glm::dot(surface.geometric_normal, wo) / cos_i;
       power_ *= weight(hit, *sample, shading, wi, wo) * turned;
       ray_.direction = wo;
@@ -133,19 +133,20 @@ class ParticleTracer {
     }
   }
 
-  // As an eye beyond the frosted pane sees what it spreads.
+  // Scatters light at a frosted pane, with the weight of the adjoint path.
   void spread(const Hit& hit, const SurfacePoint& surface, const Shading& shading) {
     const Vec3 wi = -ray_.direction;
     ray_.direction = shading.spread(sampler_.next2());
     const SurfacePoint seen = surface_at(t_.accel.scene(), hit_on_side(hit, !hit.front), -ray_.direction);
     const float cos_o = std::abs(glm::dot(seen.normal, ray_.direction)), cos_i = glm::dot(surface.normal, wi);
-    const float pdf = shading.spread_pdf(ray_.direction), passed = 1 - max_component(reflectance(surface.shade, cos_i));
-    const float eyes =
+    const float pdf = shading.spread_pdf(ray_.direction),
+                transmitted = 1 - max_component(reflectance(surface.shade, cos_i));
+    const float adjoint =
         Shading(seen, ray_.direction).spread_pdf(wi) * (1 - max_component(reflectance(seen.shade, cos_o)));
-    power_ *= pdf > 0 && passed > 0 ? eyes * cos_o / (pdf * passed * cos_i) : 0;
+    power_ *= pdf > 0 && transmitted > 0 ? adjoint * cos_o / (pdf * transmitted * cos_i) : 0;
   }
 
-  // f cosθi over the density of wo, as an eye at wo sees light from wi.
+  // f cosθi over the density of wo, f being that of the adjoint path.
   Vec3 weight(const Hit& hit, const BsdfSample& sample, const Shading& chosen, const Vec3& wi, const Vec3& wo) const {
     if (sample.delta) return sample.weight;
     const SurfacePoint seen = surface_at(t_.accel.scene(), hit, -wo);
@@ -162,13 +163,13 @@ class ParticleTracer {
   }
 
   const Transport& t_;
-  const ToldTexels& texels_;
+  const EvaluatedTexels& texels_;
   Sampler& sampler_;
   std::uint64_t& rays_;
   Ray ray_;
   Vec3 power_;
   float full_;
-  bool sharp_;  // of a point, spot or sun, straight so far
+  bool sharp_;  // from a punctual lamp or sun, not scattered so far
   Medium medium_;
   int bounces_ = 0, passes_ = 0;
   Fate fate_;
@@ -176,7 +177,7 @@ class ParticleTracer {
 
 }  // namespace
 
-Vec3 share_kept(const ShadePoint& point) {
+Vec3 absorptance(const ShadePoint& point) {
   Vec3 leaves(0);
   for (int i = 0; i < 4; ++i) {
     const Vec3 r = reflectance(point, std::sqrt(kCos2[i]));
@@ -185,7 +186,7 @@ Vec3 share_kept(const ShadePoint& point) {
   return point.coverage * glm::max(Vec3(0), 1.0f - leaves);
 }
 
-bool ToldTexels::hold(std::uint32_t triangle, const Vec2& b) const {
+bool EvaluatedTexels::contains(std::uint32_t triangle, const Vec2& b) const {
   const std::int32_t page = atlas.page[triangle];
   if (page < 0) return false;
   const auto number = static_cast<std::size_t>(page);
@@ -194,10 +195,10 @@ bool ToldTexels::hold(std::uint32_t triangle, const Vec2& b) const {
   const auto along = [](double x, std::uint32_t size) {
     return static_cast<std::size_t>(std::clamp(x, 0.0, size - 1.0));
   };
-  return told[number][along(p.y, map[number].height) * map[number].width + along(p.x, map[number].width)];
+  return evaluated[number][along(p.y, map[number].height) * map[number].width + along(p.x, map[number].width)];
 }
 
-Fate follow(const Transport& transport, const ToldTexels& texels, const Particle& particle, Sampler& sampler,
+Fate follow(const Transport& transport, const EvaluatedTexels& texels, const Particle& particle, Sampler& sampler,
             std::uint64_t& rays) {
   return ParticleTracer(transport, texels, particle, sampler, rays).run(particle.from_afar);
 }

@@ -6,12 +6,12 @@
 #include <memory>
 #include <optional>
 
-#include "bake/radiosity/certificate.h"
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/estimators/cached.h"
 #include "bake/radiosity/estimators/detail.h"
 #include "bake/radiosity/estimators/path_estimator.h"
 #include "bake/radiosity/estimators/write_pages.h"
+#include "bake/radiosity/held_out_error.h"
 #include "bake/radiosity/seams.h"
 #include "bake/radiosity/stitch.h"
 #include "bake/radiosity/texels/fit_texels.h"
@@ -23,16 +23,16 @@
 namespace oriel {
 namespace {
 
-constexpr double kStitchShare = 0.6;           // of the error asked for: what stitching may move texels by
-constexpr std::size_t kPixels = 1 << 16;       // that the error is told from, and as many others held out
-constexpr std::uint32_t kDefaultViews = 1024;  // where none is given
+constexpr double kStitchShare = 0.6;           // of the error requested: limit on changes by stitching
+constexpr std::size_t kPixels = 1 << 16;       // for the stated error, and as many held out
+constexpr std::uint32_t kDefaultViews = 1024;  // view positions where none is given
 
-constexpr double kMeets = 0.05;  // of the light of two sides of a seam, half their difference
+constexpr double kMeets = 0.05;  // relative difference of two sides of a seam, half
 
-constexpr double kTolerated = 1.1;     // times the error asked for, measured
-constexpr double kUnexplained = 0.3;   // of the squared error asked for: more is a matter of what is looked up,
-constexpr double kLongerLeaves = 0.5;  // of which so much is left where rays look up from further away
-constexpr double kSharpest = 0.5;      // of the error asked for: less noise would cost more than it brings
+constexpr double kTolerated = 1.1;         // factor of the error requested, for the held-out error
+constexpr double kUnexplained = 0.3;       // of the squared error requested: a larger rest is due to cache look-ups,
+constexpr double kLongerPathsLeave = 0.5;  // of which longer paths leave this fraction
+constexpr double kSharpest = 0.5;          // of the error requested: the least goal of a refinement
 
 // Power on the visible parts of all lightmapped surfaces, lm.
 DVec3 incident_power(const RadiosityTask& task, const Radiosity& light) {
@@ -65,8 +65,7 @@ void summarize(const RadiosityTask& task, Radiosity& light) {
   report.relative_error = stated_error(task.map, task.pixels, light.pages);
 }
 
-// Cells whose light goes on across a seam as stitching left it: where the two sides differ all the same, nothing is
-// lost by finer light.
+// Cells at seams with continuous light after stitching. Where the two sides differ anyway, finer light does no harm.
 std::vector<std::vector<bool>> cells_at(const Seams& seams, std::span<const LightmapPage> pages) {
   std::vector<std::vector<bool>> at;
   for (const LightmapPage& page : pages) at.emplace_back(page.state.size());
@@ -109,7 +108,7 @@ bool is_dark(const Transport& transport) {
   return transport.lights.empty() && luminance(transport.accel.scene().sky) <= 0;
 }
 
-// Without any light black is exact: only what lies inside other geometry is to be found.
+// The estimator of scenes without light: black is exact, and only visibility is computed.
 class DarkEstimator : public LightEstimator {
  public:
   explicit DarkEstimator(Texels texels) : texels_(std::move(texels)) {}
@@ -136,7 +135,7 @@ Result<std::unique_ptr<LightEstimator>> make_estimator(const RadiosityTask& task
   return make_path_estimator(task);
 }
 
-// Pixels that eyes see; where they see nothing, or none is given, those of eyes in the open.
+// Frame pixels from given view positions; where these see nothing, or none is given, from sampled ones.
 Result<std::vector<FramePixel>> pixels_of(const LightmapScene& scene, std::vector<Vec3> eyes, std::uint64_t seed,
                                           Context& context) {
   for (;; eyes.clear()) {
@@ -150,8 +149,8 @@ Result<std::vector<FramePixel>> pixels_of(const LightmapScene& scene, std::vecto
   }
 }
 
-// Of a day one hour is seen at a time: its light must not change where another hour's sun ends, as a share of what all
-// light was filtered and fitted to would. All light is then the sum of what each group has by itself.
+// True for a day, whose hours are shown one at a time: rescaling to the filtered sum would show one hour's shadow edges
+// in another's light. All light is then the sum of the groups.
 bool groups_lead(const RadiosityTask& task, const Radiosity& light) {
   return !task.transport.accel.scene().day.empty() && !light.groups.empty();
 }
@@ -163,7 +162,7 @@ void add_up_groups(std::vector<Vec3> LightmapPage::*values, std::size_t page, Ra
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += (pages[page].*values)[i];
 }
 
-// What is hidden and beyond charts takes the light of texels beside it, and light goes on over seams.
+// Fills hidden texels and those beyond charts from their neighbours, and makes light continuous across seams.
 Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   if (task.options.hidden == Hidden::kBlack) return {};
   for (std::size_t p = 0; p < task.map.size(); ++p) {
@@ -187,7 +186,7 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   return stitch_lightmap(task, light);
 }
 
-// The light by group of lamps as the estimator has it.
+// Writes the estimator's light by light group.
 void write_groups(const RadiosityTask& task, const LightEstimator& estimator, Radiosity& light) {
   const std::size_t groups = task.transport.accel.scene().light_groups.size();
   if (groups == 0 || task.options.hidden == Hidden::kBlack) return;
@@ -197,63 +196,62 @@ void write_groups(const RadiosityTask& task, const LightEstimator& estimator, Ra
     for (std::size_t p = 0; p < pages.size(); ++p) pages[p].state = light.pages[p].state;
 }
 
-// What groups share in what was stitched, clamped and added between texels.
+// Scales the groups to the stitched, clamped and refined sum.
 void rescale_light_groups(Radiosity& light) {
   for (std::size_t p = 0; p < light.pages.size() && !light.groups.empty(); ++p)
     rescale_page_groups(light.pages[p], p, light.groups);
 }
 
-// Where there is no time for it, texels have to do.
+// Adds finer light unless there is no time for it.
 Status add_detail_in_time(const RadiosityTask& task, const LightEstimator& estimator, Radiosity& light) {
   const RadiosityOptions& options = task.options;
   if (options.detail < 2 || options.hidden == Hidden::kBlack) return {};
-  const auto known = estimator.texel_light();
-  if (!known) return {};
+  const auto texel_light = estimator.texel_light();
+  if (!texel_light) return {};
   task.context.foretell("detail", 0);
   const Interruptible until(task.context, options.enough);
   const Status added =
-      options.late() ? fail(ErrorCode::kStopped, "radiosity", "late") : add_detail(task, *known, light);
+      options.late() ? fail(ErrorCode::kStopped, "radiosity", "late") : add_detail(task, *texel_light, light);
   if (added || task.context.stop || added.error().code != ErrorCode::kStopped) return added;
   light.report.detail = {.left_out = true};
   return {};
 }
 
-Result<Certificate> ask(const RadiosityTask& task, Ask what, std::span<const FramePixel> held_out,
-                        const Radiosity& light) {
+Result<HeldOutError> measure_error(const RadiosityTask& task, HeldOutTarget target,
+                                   std::span<const FramePixel> held_out, const Radiosity& light) {
   const auto at_most = static_cast<std::uint64_t>(task.options.verify * static_cast<double>(task.work()));
   const RadiosityOptions& options = task.options;
   const double goal = options.error > 0 ? options.error : light.report.relative_error;
-  auto c = certify(task, light.pages, held_out, {what, goal, at_most, options.eyes}, task.context);
+  auto c = measure_held_out_error(task, light.pages, held_out, {target, goal, at_most, options.eyes}, task.context);
   if (c) task.paths.count(c->rays);
   return c;
 }
 
-// What held-out pixels tell of the error; nothing where there is no time for them. They stay in `held_out`.
-Result<Certificate> verify(const RadiosityTask& task, const Radiosity& light, std::vector<FramePixel>& held_out) {
+// Measures the held-out error; nothing where there is no time. The pixels stay in `held_out`.
+Result<HeldOutError> verify(const RadiosityTask& task, const Radiosity& light, std::vector<FramePixel>& held_out) {
   const RadiosityOptions& options = task.options;
-  if (options.verify <= 0 || options.estimator != Estimator::kCached || is_dark(task.transport)) return Certificate();
+  if (options.verify <= 0 || options.estimator != Estimator::kCached || is_dark(task.transport)) return HeldOutError();
   task.context.foretell("verification", 0);
   const auto late = [&] { return options.late(); };
   const Interruptible until(task.context, late);
-  const auto measured = [&]() -> Result<Certificate> {
+  const auto measured = [&]() -> Result<HeldOutError> {
     ORIEL_TRY(held_out, pixels_of(task, options.held_out.empty() ? options.eyes : options.held_out,
                                   mix64(task.context.seed + seeds::kHeldOutPixels), task.context));
-    return ask(task, Ask::kPoints, held_out, light);
+    return measure_error(task, HeldOutTarget::kPoints, held_out, light);
   }();
   if (measured) return measured;
   if (task.context.stop || !late()) return measured;
-  return Certificate();
+  return HeldOutError();
 }
 
-// What is worth refining to, where held-out pixels tell of a larger error than was asked for. What the noise that is
-// stated does not explain stays, however many rays are traced. Of it, what texels are off by as a whole comes from what
-// rays look up, but for what stitching moves: less of it where less is looked up, and none of that can be with limited
-// bounces. The rest is their size.
+// The goal of another refinement if the held-out error is too large. The part that the stated noise does not explain is
+// independent of the number of rays. Of it, the error of whole texels, less the changes by stitching, is due to cache
+// look-ups: longer paths reduce it, except with limited bounces. The rest is due to the texels' size.
 Result<std::optional<Goal>> next_goal(const RadiosityTask& task, const Goal& last, std::span<const FramePixel> held_out,
                                       Radiosity& light) {
   const RadiosityOptions& options = task.options;
   RadiosityReport& report = light.report;
-  Certificate& c = report.certificate;
+  HeldOutError& c = report.held_out_error;
   const double asked2 = options.error * options.error, square = c.relative_error * c.relative_error;
   const bool missed = options.error > 0 && c.relative_error > kTolerated * options.error && c.error_low > options.error;
   if (!missed || report.ended_early || report.out_of_rays || report.refinements == kRefinements) return std::nullopt;
@@ -262,16 +260,16 @@ Result<std::optional<Goal>> next_goal(const RadiosityTask& task, const Goal& las
   double stays = std::max(square - noise2, 0.0);
   Goal next;
   if (report.refinements == 0 && options.bounces == 0 && stays > kUnexplained * asked2) {
-    ORIEL_TRY(const Certificate texels, ask(task, Ask::kTexels, held_out, light));
+    ORIEL_TRY(const HeldOutError texels, measure_error(task, HeldOutTarget::kTexels, held_out, light));
     c.texel_error = texels.relative_error, c.rays += texels.rays;
     const double of_texels = c.texel_error * c.texel_error;
-    const double looked_up = of_texels - noise2 - report.seams.moved * report.seams.moved;
-    next.longer_look_up = looked_up > kUnexplained * asked2 && square - of_texels < asked2;
-    if (next.longer_look_up) stays -= (1 - kLongerLeaves) * looked_up;
+    const double cache_error = of_texels - noise2 - report.seams.moved * report.seams.moved;
+    next.longer_paths = cache_error > kUnexplained * asked2 && square - of_texels < asked2;
+    if (next.longer_paths) stays -= (1 - kLongerPathsLeave) * cache_error;
   }
-  if (!next.longer_look_up && asked2 <= stays) return std::nullopt;
+  if (!next.longer_paths && asked2 <= stays) return std::nullopt;
   next.error = std::max(std::sqrt(std::max(asked2 - stays, 0.0)), kSharpest * options.error);
-  if (!next.longer_look_up && next.error >= last.error) return std::nullopt;
+  if (!next.longer_paths && next.error >= last.error) return std::nullopt;
   return next;
 }
 
@@ -321,7 +319,7 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
     rescale_light_groups(light);
     summarize(task, light);
     std::vector<FramePixel> held_out;
-    ORIEL_TRY(light.report.certificate, verify(task, light, held_out));
+    ORIEL_TRY(light.report.held_out_error, verify(task, light, held_out));
     ORIEL_TRY(const std::optional<Goal> next, next_goal(task, goal, held_out, light));
     if (!next) break;
     goal = *next;

@@ -1,4 +1,4 @@
-// Radiosity textures: irradiance per texel of the lightmap, with its standard error.
+// The radiosity stage: irradiance of each lightmap texel, with its standard error.
 #pragma once
 
 #include "bake/radiosity/estimators/radiosity_options.h"
@@ -6,13 +6,13 @@
 
 namespace oriel {
 
-// Texels hold the light of the front sides; split_sides() gives lit backs texels of their own.
+// Bakes the light of front sides; split_sides() gives lit backs texels of their own.
 //
-// By options.estimator: `cached`, the default of oriel-bake (estimators/cached.h; docs/notes/radiosity.md tells its
-// order), or `reference`: unbiased paths from points spread over each texel, light and BSDF sampling combined. Of both,
-// points that lie inside other geometry (independent probes meet little but back faces of one-sided materials) are left
-// out, and so are those behind a wall that stands on the texel; a texel with none left is kBuried and filled from its
-// chart's neighbours. Stage name "radiosity"; error kStopped.
+// options.estimator: `cached`, the default of oriel-bake (estimators/cached.h; docs/notes/radiosity.md describes its
+// steps), or `reference`: unbiased paths from points spread over each texel, with light and BSDF sampling combined.
+// Both leave out points inside other geometry (probes from there hit almost only back faces) and points behind a wall
+// on the texel. A texel with no point left is kBuried and is filled from its chart's neighbours. Stage name
+// "radiosity"; error kStopped.
 Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOptions& options, Context& context);
 
 }  // namespace oriel

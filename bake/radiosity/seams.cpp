@@ -11,14 +11,14 @@
 namespace oriel {
 namespace {
 
-constexpr double kTolerance = 0.1;        // texels between edges that count as one
-constexpr double kParallel = 0.95;        // cosine between edges
-constexpr float kSameNormal = 0.98481f;   // cos 10°: a step of the cosine that the light may show
-constexpr float kSameFace = 0.70711f;     // cos 45°: no chart bends more sharply
-constexpr double kPointsPerTexel = 3;     // along a seam
-constexpr double kInside = 1e-3;          // texels from the chart's border: on its own side of a texel's border
-constexpr float kLift = 0.1f;             // texels above the surface at which both sides must see each other
-constexpr double kSamePlace = 0.01;       // texels: not a seam, the two sides read the same texels
+constexpr double kTolerance = 0.1;       // texels between edges that count as one
+constexpr double kParallel = 0.95;       // cosine between edges
+constexpr float kSameNormal = 0.98481f;  // cos 10°: a larger angle shows in the light
+constexpr float kSameFace = 0.70711f;    // cos 45°: no chart bends more sharply
+constexpr double kPointsPerTexel = 3;    // along a seam
+constexpr double kInside = 1e-3;         // texels inwards from the chart's border, so that the texel is the chart's own
+constexpr float kLift = 0.1f;            // texels above the surface at which both sides must see each other
+constexpr double kSamePlace = 0.01;      // texels: not a seam, the two sides read the same texels
 constexpr std::size_t kEdgesATask = 256;  // edges a task
 
 // An edge of a triangle at the rim of its chart, from corner to the next, counter-clockwise.
@@ -49,7 +49,7 @@ std::vector<double> chart_texel_m(const Scene& scene, const Atlas& atlas) {
   return world;
 }
 
-// Edges that no other triangle of the chart shares, place for place.
+// Edges that no other triangle of the chart shares on the page.
 std::vector<RimEdge> rim_edges(const Scene& scene, const Atlas& atlas) {
   struct Key {
     std::uint64_t hash;
@@ -105,8 +105,8 @@ class EdgeTree {
   // Every edge within that distance of p, and others: ascending.
   void near(const DVec3& p, double distance, std::vector<std::uint32_t>& found) const {
     found.clear();
-    const auto around = boost::geometry::index::intersects(Box(point(p - distance), point(p + distance)));
-    for (auto it = tree_.qbegin(around); it != tree_.qend(); ++it) found.push_back(it->second);
+    const auto query = boost::geometry::index::intersects(Box(point(p - distance), point(p + distance)));
+    for (auto it = tree_.qbegin(query); it != tree_.qend(); ++it) found.push_back(it->second);
     std::sort(found.begin(), found.end());
   }
 
@@ -151,22 +151,22 @@ class SeamFinder {
         add_bridge(a, b, bridges);
       }
     }
-    std::vector<Vec3> passed(bridges.size());
-    t_.accel.transmittance(bridges, passed);
+    std::vector<Vec3> transmittance(bridges.size());
+    t_.accel.transmittance(bridges, transmittance);
     rays += bridges.size();
-    std::size_t kept = 0;
+    std::size_t visible_count = 0;
     for (std::size_t k = 0; k < seams.points.size(); ++k) {
-      if (!(max_component(passed[2 * k] * passed[2 * k + 1]) > 0)) continue;
-      seams.pairs += kept == 0 || pair[kept - 1] != pair[k];
-      pair[kept] = pair[k];
-      seams.points[kept++] = seams.points[k];
+      if (!(max_component(transmittance[2 * k] * transmittance[2 * k + 1]) > 0)) continue;
+      seams.pairs += visible_count == 0 || pair[visible_count - 1] != pair[k];
+      pair[visible_count] = pair[k];
+      seams.points[visible_count++] = seams.points[k];
     }
-    seams.points.resize(kept);
+    seams.points.resize(visible_count);
     return seams;
   }
 
  private:
-  // A point of an edge as its triangle has it.
+  // A point of an edge, on its triangle's side.
   struct Side {
     std::uint32_t edge = 0, page = 0;
     double at = 0;  // along the edge, [0,1]
@@ -189,7 +189,7 @@ class SeamFinder {
     return side;
   }
 
-  // The nearest edge on which the surface goes on, where it is the coarser of both.
+  // Finds the nearest edge at which the surface continues, if that edge is the coarser one.
   bool find_other(const Side& a, std::vector<std::uint32_t>& near, Side& best) const {
     const RimEdge& own = edges_[a.edge];
     const DVec3 p = own.a + own.along * a.at;
@@ -205,13 +205,13 @@ class SeamFinder {
       const double distance = glm::distance(p, other.a + other.along * at);
       if (distance > tolerance || distance >= least) continue;
       const Side b = side_of(i, at);
-      if (!goes_on(a, b)) continue;
+      if (!continues(a, b)) continue;
       least = distance, best = b;
     }
     return least < 1e300;
   }
 
-  bool goes_on(const Side& a, const Side& b) const {
+  bool continues(const Side& a, const Side& b) const {
     if (a.page == b.page && glm::distance(a.place, b.place) < kSamePlace) return false;
     return glm::dot(a.surface.normal, b.surface.normal) >= kSameNormal &&
            glm::dot(a.surface.geometric_normal, b.surface.geometric_normal) >= kSameFace;
@@ -240,7 +240,7 @@ class SeamFinder {
     return s.surface.position + Vec3(inwards * share);
   }
 
-  // By way of a point above the edge: so bent surfaces do not stand in their own way.
+  // Adds two segments that meet above the edge, so that a bent surface does not occlude them.
   void add_bridge(const Side& a, const Side& b, std::vector<Ray>& bridges) const {
     const float lift = kLift * static_cast<float>(edges_[a.edge].texel_m);
     const float magnitude = std::max(a.surface.magnitude, b.surface.magnitude);

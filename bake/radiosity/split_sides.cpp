@@ -10,7 +10,7 @@ namespace {
 class Splitter {
  public:
   Splitter(Scene scene, std::span<const LitSides> sides)
-      : sides_(sides), out_(std::move(scene)), originals_(out_.materials), material_taken_(originals_.size()) {
+      : sides_(sides), out_(std::move(scene)), originals_(out_.materials), material_used_(originals_.size()) {
     in_.positions.swap(out_.positions);
     in_.normals.swap(out_.normals);
     in_.uv0.swap(out_.uv0);
@@ -105,11 +105,11 @@ class Splitter {
     SceneMaterial variant = originals_[m];
     variant.double_sided = double_sided;
     if (mirrored) variant.normal_scale = -variant.normal_scale;
-    if (material_taken_[m]) {
+    if (material_used_[m]) {
       at->second = static_cast<std::uint32_t>(out_.materials.size());
       out_.materials.push_back(std::move(variant));
     } else {
-      material_taken_[m] = 1;
+      material_used_[m] = 1;
       out_.materials[m] = std::move(variant);
     }
     return at->second;
@@ -119,7 +119,7 @@ class Splitter {
   Scene in_;  // geometry only
   Scene out_;
   std::vector<SceneMaterial> originals_;
-  std::vector<char> material_taken_;
+  std::vector<char> material_used_;
   std::map<std::tuple<std::uint32_t, bool, bool>, std::uint32_t> variants_;
   std::vector<std::uint32_t> copy_of_;   // by vertex of in_: its last copy
   std::vector<std::uint32_t> original_;  // by vertex of out_

@@ -1,4 +1,4 @@
-// Double-sided surfaces as one-sided ones, which lightmaps, paths and the player treat alike.
+// Conversion of double-sided surfaces to one-sided ones, which lightmaps, paths and the player treat alike.
 #pragma once
 
 #include <span>
@@ -7,15 +7,15 @@
 
 namespace oriel {
 
-// Which sides of a double-sided triangle receive light.
+// The sides of a double-sided triangle that receive light.
 enum class LitSides : std::uint8_t { kFront, kBack, kBoth };
 
-// sides: by triangle; kFront for those of one-sided surfaces. Splits each surface by them:
+// Splits each surface by the lit sides of its triangles. sides: by triangle; kFront for those of one-sided surfaces.
 // kFront: stays as it is.
-// kBack: is turned over, so that its front is the lit side.
-// kBoth: becomes a one-sided surface and, behind all other surfaces, its back (Scene::twin) with charts of its own.
-// A surface's triangles and vertices may come in another order. Materials are copied where the parts of a surface need
-// different ones. What a normal map tilts is the same before and after.
+// kBack: is flipped, so that its front is the lit side.
+// kBoth: becomes a one-sided surface and, after all other surfaces, its back (Scene::twin) with charts of its own.
+// The order of a surface's triangles and vertices may change. Materials are copied where the parts of a surface need
+// different ones. Normal maps keep their effect.
 Scene split_sides(Scene scene, std::span<const LitSides> sides);
 
 }  // namespace oriel

@@ -12,12 +12,12 @@ constexpr double kStep = 0.005;  // relative: a step on a seam that weighs as mu
 constexpr double kLeastError = 0.01;  // relative error of any texel: it shows a mean over its square, not its centre
 constexpr double kFree = 0.2;         // relative error of a texel without surface
 constexpr double kDark = 0.01;        // of the mean light: what is darker counts as that
-constexpr int kAround = 2;            // texels to each side over which errors and their light are pooled
+constexpr int kPoolRadius = 2;        // texels to each side over which errors and their light are pooled
 constexpr double kOwn = 1;            // the largest change of a texel: of its standard error,
 constexpr double kPooled = 0.3;       // or, if more, of its light, as far as three times the errors around it go,
-constexpr double kSlack = 3;          // so many times kLeastError beside, and twice kFree
+constexpr double kSlack = 3;          // plus this times kLeastError, plus twice kFree
 constexpr int kRounds = 4;
-constexpr double kRestraint = 0.6;  // of the freedom of texels, so many times at most, where they move by too much
+constexpr double kRestraint = 0.6;  // factor of the texels' freedom, in at most kRestraints rounds
 constexpr double kStrongest = 0.1;
 constexpr int kRestraints = 8;
 constexpr double kHeld = 1e-6;  // relative error of a texel that must not move
@@ -27,7 +27,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-// What bilinear filtering reads at a place of a page.
+// Texels and weights of bilinear filtering at a place of a page.
 struct Footprint {
   std::array<std::uint32_t, 4> texel{};
   std::array<double, 4> weight{};
@@ -117,7 +117,7 @@ class Stitcher {
       for (int c = 0; c < 3; ++c) t.most[c] = largest_change(t, c);
     }
     if (!solve_within_limits()) return false;
-    // The least squares with less freedom for all: what is mended at a small price stays mended.
+    // Solves again with less freedom for all texels, until they move by little enough.
     for (int round = 0; round < kRestraints; ++round) {
       const double by = moved();
       if (by <= at_most) break;
@@ -127,7 +127,7 @@ class Stitcher {
     return true;
   }
 
-  // By how much texels were moved, relative, root mean square over all surfaces.
+  // The relative change of texels, root mean square over all surfaces.
   double moved() {
     double sum = 0;
     for (const Texel& t : texels_) sum += covered_[t.page][t.texel] * square(t);
@@ -161,8 +161,8 @@ class Stitcher {
     return light(t) + Vec3(t.scale() * DVec3(change(row, 0), change(row, 1), change(row, 2)));
   }
 
-  // What a texel may become: no more than largest_change() away, and not negative. A chart of a texel or two cannot
-  // meet all the light along its outline; without limits it and its neighbours are torn between the sides of it.
+  // Clamps a texel to within largest_change(), and to 0. A chart of a texel or two cannot match all the light along its
+  // outline; without limits, its texels and their neighbours would be pulled far off.
   Vec3 within_limits(const Texel& t, const Vec3& to) {
     return glm::max(Vec3(0), glm::clamp(to, t.baked - t.most, t.baked + t.most));
   }
@@ -238,13 +238,13 @@ class Stitcher {
 
   // Standard errors over the light around a texel, root mean squares. The texel's own is no measure: it is small where
   // chance made the texel dark, and would draw the seam to the dark side.
-  double noise_around(const Texel& t) const {
+  double pooled_noise(const Texel& t) const {
     const LightmapPage& page = pages_[t.page];
     const auto width = static_cast<int>(page.width), height = static_cast<int>(page.height);
     const int x0 = static_cast<int>(t.texel) % width, y0 = static_cast<int>(t.texel) / width;
     double squares = 0, light = 0;
-    for (int y = std::max(0, y0 - kAround); y <= std::min(height - 1, y0 + kAround); ++y)
-      for (int x = std::max(0, x0 - kAround); x <= std::min(width - 1, x0 + kAround); ++x) {
+    for (int y = std::max(0, y0 - kPoolRadius); y <= std::min(height - 1, y0 + kPoolRadius); ++y)
+      for (int x = std::max(0, x0 - kPoolRadius); x <= std::min(width - 1, x0 + kPoolRadius); ++x) {
         const auto texel = static_cast<std::size_t>(y) * page.width + static_cast<std::size_t>(x);
         if (page.state[texel] != TexelState::kValid) continue;
         squares += std::pow(luminance(page.standard_error[texel]), 2);
@@ -257,18 +257,18 @@ class Stitcher {
   double error_of(const Texel& t) const {
     const LightmapPage& page = pages_[t.page];
     const double own = luminance(page.standard_error[t.texel]);
-    const double noise = std::max(own, noise_around(t) * (brightness(DVec3(t.baked)) + dark_)) / t.scale();
+    const double noise = std::max(own, pooled_noise(t) * (brightness(DVec3(t.baked)) + dark_)) / t.scale();
     const double free = kFree * (1 - double{covered_[t.page][t.texel]});
     return std::sqrt(noise * noise +
                      std::pow((kLeastError + free) * (brightness(DVec3(t.baked)) + dark_) / t.scale(), 2));
   }
 
-  // In lux: what a texel may be off by without being seen to be.
+  // The largest change of a texel that is not noticeable, lux.
   float largest_change(const Texel& t, int channel) const {
     const LightmapPage& page = pages_[t.page];
     const double own = page.irradiance[t.texel][channel], error = page.standard_error[t.texel][channel];
     const double free = kFree * (1 - double{covered_[t.page][t.texel]});
-    const double pooled = std::min(kSlack * noise_around(t) * own, kPooled * own);
+    const double pooled = std::min(kSlack * pooled_noise(t) * own, kPooled * own);
     return static_cast<float>(std::max(kOwn * error, pooled) + (kSlack * kLeastError + 2 * free) * own);
   }
 

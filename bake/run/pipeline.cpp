@@ -211,7 +211,7 @@ class Bake {
                 return baked;
               }));
     result_.radiosity = radiosity_.report;
-    planned_.light_reused = radiosity_.report.reuse.kept > 0;
+    planned_.light_reused = radiosity_.report.reuse.reused > 0;
     context_.finishable = true;
     judge_error(options_, radiosity_.report, budget_, context_, result_.shortfalls);
     return {};

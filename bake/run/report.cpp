@@ -122,7 +122,7 @@ double largest_compression_error(const BakeFacts& f) {
 
 Json worst_json(const BakeFacts& f) {
   Json out = Json::array();
-  for (const WorstPixel& w : f.radiosity.certificate.worst) {
+  for (const WorstPixel& w : f.radiosity.held_out_error.worst) {
     const DVec3 p = f.scene.origin + DVec3(w.position);
     out.push_back({{"surface", f.scene.surfaces[f.scene.triangle_surface[w.triangle]].name},
                    {"at", {p.x, p.y, p.z}},
@@ -134,7 +134,7 @@ Json worst_json(const BakeFacts& f) {
 }
 
 Json certificate_json(const BakeFacts& f) {
-  const Certificate& c = f.radiosity.certificate;
+  const HeldOutError& c = f.radiosity.held_out_error;
   return {{"pixels", c.pixels},
           {"paths", c.paths},
           {"bias", c.bias},
@@ -149,7 +149,7 @@ Json certificate_json(const BakeFacts& f) {
 
 // What is off by how much, part by part: asked for, stated by the estimate itself, measured on what it did not know.
 Json errors_json(const BakeFacts& f) {
-  const Certificate& c = f.radiosity.certificate;
+  const HeldOutError& c = f.radiosity.held_out_error;
   Json diffuse = {{"component", "D"}};
   if (f.asked > 0) diffuse["asked"] = f.asked;
   diffuse["stated"] = f.radiosity.stated();
@@ -197,7 +197,7 @@ Json movers_json(std::span<const MoverReport> movers) {
 
 Json reuse_json(const ReuseReport& r) {
   if (r.asked <= 0) return Json();
-  return {{"asked", r.asked}, {"tiles", r.tiles}, {"kept", r.kept}, {"relative_error", r.error}};
+  return {{"asked", r.asked}, {"tiles", r.tiles}, {"kept", r.reused}, {"relative_error", r.error}};
 }
 
 Json reuse_json(const MapReuse& r) {

@@ -18,7 +18,7 @@ void fall_short(const std::string& why, Context& context, std::vector<std::strin
 void judge_error(const BakeOptions& options, const RadiosityReport& report, const TimeBudget& budget, Context& context,
                  std::vector<std::string>& shortfalls) {
   const double asked = options.radiosity.error, stated = report.relative_error;
-  const Certificate& c = report.certificate;
+  const HeldOutError& c = report.held_out_error;
   if (asked <= 0 || context.finish) return;
   const bool named = options.error_named;
   const auto tell = [&](const std::string& text) {

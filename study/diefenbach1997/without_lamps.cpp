@@ -93,7 +93,7 @@ bool is_marked(const Pack& pack) {
 Result<std::vector<LightmapPage>> bake_reflected(const LightmapScene& scene, const RadiosityOptions& options,
                                                  Context& context) {
   std::vector<Vec3> eyes = options.eyes;
-  if (eyes.empty()) eyes = eyes_in_the_open(scene.transport, kLightmapEyes, mix64(context.seed + seeds::kFramePixels));
+  if (eyes.empty()) eyes = sample_view_positions(scene.transport, kLightmapEyes, mix64(context.seed + seeds::kFramePixels));
   ORIEL_TRY(const std::vector<FramePixel> pixels,
             find_frame_pixels(scene.transport, scene.atlas, {eyes, kPixelsOfEye},
                               mix64(mix64(context.seed + seeds::kFramePixels)), context));
@@ -105,7 +105,7 @@ Result<std::vector<LightmapPage>> bake_reflected(const LightmapScene& scene, con
   const std::optional<TexelLight> known = estimator->texel_light();
   const std::size_t texels = known->texels.count();
   Estimate reflected = known->reflected;
-  for (std::size_t i = 0; i < known->beside.size(); ++i) reflected.value[i] -= known->beside[i];
+  for (std::size_t i = 0; i < known->additional.size(); ++i) reflected.value[i] -= known->additional[i];
   const Estimate none{std::vector<Vec3>(texels), std::vector<Vec3>(texels)};
   Radiosity light = empty_radiosity(scene.map, false);
   write_texels({known->texels, none, reflected, {}, {}}, light);

@@ -1,7 +1,7 @@
 // The error that people see in a pack's light, whoever baked it: held-out pixels against unbiased paths.
 #include <cstdio>
 
-#include "bake/radiosity/certificate.h"
+#include "bake/radiosity/held_out_error.h"
 #include "bake/run/pipeline.h"
 #include "bake/run/prepare.h"
 #include "formats/cli/command.h"
@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kEyes = 1024, kPixels = 64;
 constexpr std::uint64_t kSeed = 0xbe9c;  // of no bake
 
-Result<Certificate> measure(const BakeOptions& options, double known_to, std::uint64_t rays_at_most) {
+Result<HeldOutError> measure(const BakeOptions& options, double known_to, std::uint64_t rays_at_most) {
   Context context;
   std::vector<StageTime> times;
   Stopwatch timed(times);
@@ -32,8 +32,8 @@ Result<Certificate> measure(const BakeOptions& options, double known_to, std::ui
   ORIEL_TRY(
       const std::vector<FramePixel> pixels,
       find_frame_pixels(transport, atlas, {held_out_eyes(prepared.region, kEyes, kSeed), kPixels}, kSeed, context));
-  return certify({transport, atlas, prepared.texel_map}, pack.lightmaps, pixels, {Ask::kPoints, known_to, rays_at_most},
-                 context);
+  return measure_held_out_error({transport, atlas, prepared.texel_map}, pack.lightmaps, pixels,
+                                {HeldOutTarget::kPoints, known_to, rays_at_most}, context);
 }
 
 int bench(int argc, char** argv) {

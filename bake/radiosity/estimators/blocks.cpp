@@ -43,7 +43,7 @@ class PageBlocks {
     return levels_[place];
   }
 
-  // What all cells around a texel's centre add to its light there: nothing where one of them has no points of its own.
+  // The mean change by all cells around a texel's centre; 0 where one of them has no points.
   Vec3 change_at_texel(int x, int y) const {
     Vec3 sum(0);
     float count = 0;
@@ -59,14 +59,14 @@ class PageBlocks {
     return count > 0 ? sum / count : Vec3(0);
   }
 
-  // What a cell of `level` at (x, y) adds to its texels' interpolation at point (i, j).
+  // The change of a cell of `level` at (x, y) at point (i, j), relative to its texels' interpolation.
   Vec3 change_in(std::uint8_t level, std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j) const {
     const std::uint32_t n = 1u << level;
     if (i % n == 0 && j % n == 0) return change_at_texel(static_cast<int>(x + i / n), static_cast<int>(y + j / n));
     return grids_[level]->at(x, y, i, j);
   }
 
-  // Light between the texels of the cell at (x, y); f: of [0,1].
+  // Interpolated light of the texels of the cell at (x, y); f: [0,1]².
   Vec3 between_texels(std::uint32_t x, std::uint32_t y, const Vec2& f) const {
     const std::size_t place = std::size_t{y} * page_.width + x;
     const auto& light = page_.irradiance;
@@ -74,13 +74,13 @@ class PageBlocks {
                     glm::mix(light[place + page_.width], light[place + page_.width + 1], f.x), f.y);
   }
 
-  // Light at a point of a cell of that level, not 0, as if it met none with fewer steps.
+  // Light at a point of a cell of that level, not 0, without regard to coarser neighbours.
   Vec3 light_in(std::uint8_t level, std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j) const {
     const Vec2 f = Vec2(i, j) / static_cast<float>(1u << level);
     return glm::max(between_texels(x, y, f) + change_in(level, x, y, i, j), Vec3(0));
   }
 
-  // Light at a place on a side of a cell, f of [0,1]: between its points, or its texels where the level is 0.
+  // Light at a position on a side of a cell, f: [0,1]², interpolated between its points, or its texels for level 0.
   Vec3 light_on_side(std::uint8_t level, std::uint32_t x, std::uint32_t y, const Vec2& f) const {
     if (level == 0) return between_texels(x, y, f);
     const std::uint32_t n = 1u << level;
@@ -102,22 +102,22 @@ class PageBlocks {
             light_at(levels_[place], x, y, i, j);
   }
 
-  // On a side that it shares with a cell of fewer steps, what that one shows.
+  // Light at a point; on a side shared with a coarser cell it is that cell's.
   Vec3 light_at(std::uint8_t level, std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j) const {
     const std::uint32_t n = 1u << level;
     std::uint8_t fewest = level;
     IVec2 from(0);
-    const auto look = [&](bool on_side, int dx, int dy) {
+    const auto check_side = [&](bool on_side, int dx, int dy) {
       const auto other = on_side ? level_of(static_cast<int>(x) + dx, static_cast<int>(y) + dy) : std::nullopt;
       if (other && *other < fewest) fewest = *other, from = {dx, dy};
     };
-    look(i == 0, -1, 0), look(i == n, 1, 0), look(j == 0, 0, -1), look(j == n, 0, 1);
+    check_side(i == 0, -1, 0), check_side(i == n, 1, 0), check_side(j == 0, 0, -1), check_side(j == n, 0, 1);
     if (fewest == level) return light_in(level, x, y, i, j);
     return light_on_side(fewest, x + static_cast<std::uint32_t>(from.x), y + static_cast<std::uint32_t>(from.y),
                          Vec2(i, j) / static_cast<float>(n) - Vec2(from));
   }
 
-  // Largest first, in rows from the left. The cells' places in that order.
+  // Places blocks in rows from the left, the largest first. Returns the cells' places in that order.
   std::vector<std::uint32_t> place_blocks() {
     std::vector<std::uint32_t> order;
     std::size_t area = 0;

@@ -1,4 +1,4 @@
-// Finer cells as a page holds them: points' light joined to the texels' around it.
+// Storage of finer cells on a page: their points' light, joined to that of the texels around them.
 #pragma once
 
 #include <array>
@@ -10,10 +10,12 @@ namespace oriel {
 inline constexpr int kDetailLevels = 5;
 static_assert(1u << kDetailLevels == kMostDetail);
 
-// Fills the page's cell and detail. Where a finer cell meets one that is not, their common side shows what the coarser
-// one shows, and at a texel's centre where not all cells are finer all show the texel, so that nothing steps. Points
-// without light of their own, inside something or beyond the chart, differ from the texels' interpolation by what their
-// neighbours do. points: by level - 1, with what level gave; null where no cell has it. map: of the page.
+// Fills LightmapPage::cell and detail. The light is continuous: on a side shared with a coarser cell, a finer one shows
+// the coarser one's light, and at the centre of a texel whose cells are not all finer, all show the texel. A point
+// without its own light (inside a body, or beyond the chart) gets the mean of its neighbours' differences from the
+// interpolated texels.
+// levels: by place (y * width + x), log2 of a cell's steps. points: by level - 1, the points' light; null: unused. map:
+// of the page.
 void add_blocks(const TexelMapPage& map, const std::vector<std::uint8_t>& levels, std::uint32_t page_number,
                 const std::array<const PointLight*, kDetailLevels>& points, LightmapPage& page);
 

@@ -6,10 +6,10 @@
 #include "bake/radiosity/estimators/direct_light.h"
 #include "bake/radiosity/estimators/filter.h"
 #include "bake/radiosity/estimators/lamp_light.h"
-#include "bake/radiosity/estimators/part.h"
+#include "bake/radiosity/estimators/light_component.h"
 #include "bake/radiosity/estimators/patches.h"
+#include "bake/radiosity/estimators/progress_estimate.h"
 #include "bake/radiosity/estimators/reuse.h"
-#include "bake/radiosity/estimators/work_left.h"
 #include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/gather/bright_texels.h"
 #include "bake/radiosity/gather/survival.h"
@@ -20,18 +20,18 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel and light, before any refinement
-constexpr std::uint32_t kCrowdedDirect = 16;            // where something is close by
-constexpr int kDirectRounds = 2;                        // of four times the samples, where that leaves doubt
+constexpr std::uint32_t kOccludedDirect = 16;           // the same in occlusion-heavy texels
+constexpr int kDirectRounds = 2;                        // of four times the samples, where the estimate is uncertain
 constexpr float kUncertain = 0.1f;                      // of the direct light
 constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
-constexpr std::uint32_t kFirstCrowded = 32;             // where something is close by
-constexpr std::uint32_t kMostDark = 512;                // the same, where these find next to no light:
-constexpr float kDark = 0.002f;                         // of the mean
+constexpr std::uint32_t kFirstOccluded = 32;            // the same in occlusion-heavy texels
+constexpr std::uint32_t kMostDark = 512;                // the same where these find nearly no light,
+constexpr float kDark = 0.002f;                         // a fraction of the mean
 constexpr double kLittleSeen = 0.1;                     // of the squared error asked for
-constexpr double kDirectTime = 0.3;                     // of what is left (RadiosityOptions::left)
-constexpr float kCoarseError = 0.25f;                   // of bounces that no gather ray refined
-constexpr float kFurther = 4;                           // times as far (Goal::longer_look_up)
-constexpr double kGatherGain = 0.5, kDirectGain = 0.6;  // part of the squared error that the next refinement takes away
+constexpr double kDirectTime = 0.3;                     // of the time left (RadiosityOptions::left)
+constexpr float kCoarseError = 0.25f;                   // relative, of bounces without gather rays
+constexpr float kLongerPaths = 4;                       // minimum distance (Goal::longer_paths), texel sides
+constexpr double kGatherGain = 0.5, kDirectGain = 0.6;  // of the squared error, by a refinement
 
 class CachedEstimator : public LightEstimator {
  public:
@@ -47,16 +47,16 @@ class CachedEstimator : public LightEstimator {
         direct_(texels_.count(), options_.directional, query_.groups()),
         gathered_(texels_.count(), options_.directional, query_.groups()),
         lamps_(texels_.count(), options_.directional, query_.groups()),
-        keep_beside_(texels_.count()),
+        fixed_additional_(texels_.count()),
         frames_(task.pixels, task.map, texels_.has_light()),
         most_rays_(options_) {}
 
   Status refine(const Goal& goal) override {
     if (importance_.empty()) ORIEL_TRY_VOID(begin(goal));
-    if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
+    if (goal.longer_paths) ORIEL_TRY_VOID(gather_with_longer_paths());
     ORIEL_TRY_VOID(refine_to(goal.error / noise_of_hours(query_, importance_, {direct_, gathered_})));
-    // What took light from elsewhere is not passed on: errors would add up from edit to edit.
-    if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
+    // A bake that reused light is not stored: errors would add up from edit to edit.
+    if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().reused > 0)) store_for_reuse();
     return {};
   }
 
@@ -78,23 +78,23 @@ class CachedEstimator : public LightEstimator {
   }
 
   std::optional<TexelLight> texel_light() const override {
-    auto [beside, grouped] = smooth_beside(lamps_, texels_, graph_, gathered_, context_);
+    auto [extra, grouped] = smooth_additional(lamps_, texels_, graph_, gathered_, context_);
     const GroupHalves gathered{gathered_.grouped_halves(), false};
     GroupedLight reflected = filter_groups(texels_, graph_, gathered, options_.filter, context_);
     return TexelLight{
-        texels_, query_, cached_, std::move(beside), std::move(grouped), estimate_, std::move(reflected), importance_};
+        texels_, query_, cached_, std::move(extra), std::move(grouped), estimate_, std::move(reflected), importance_};
   }
 
  private:
-  // Direct light, its bounces on coarse patches, and the first rays that gather these.
+  // Computes direct light, its bounces on coarse patches, and the first gather.
   Status begin(const Goal& goal) {
     ORIEL_TRY(graph_, find_neighbours(query_.transport(), texels_, task_.paths));
-    beside_ = with_chart_neighbours(graph_, texels_);
-    importance_ = typical_errors(beside_, frames_.importance(), context_);
+    error_graph_ = with_chart_neighbours(graph_, texels_);
+    importance_ = typical_errors(error_graph_, frames_.importance(), context_);
     little_seen_ = little_seen(order_, importance_, kLittleSeen * goal.error * goal.error);
-    recall();
+    load_previous();
     ORIEL_TRY_VOID(first_direct());
-    // Bakes that count bounces leave it to the rays, which do.
+    // With limited bounces rays find this light, which count bounces.
     if (options_.bounces == 0)
       ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
     irradiance_ = coarse_ = direct_.value;
@@ -110,72 +110,72 @@ class CachedEstimator : public LightEstimator {
     if (grouped) grouped_.add(sweeps_.grouped), cached_.grouped = grouped;
     bright_ = BrightTexels(query_, {texels_, sample_points_, cached_, sweeps_.gathered, importance_}, context_.seed);
     if (!bright_.empty()) cached_.bright = &bright_;
-    take_known();
+    reuse_previous();
     ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, query_, order_, cached_, task_.paths); }));
     ORIEL_TRY_VOID(first_gather());
     first_work_ = task_.work(), first_rays_ = task_.paths.traced() + task_.quick.traced();
     return {};
   }
 
-  // Where time ends meanwhile, those that came count; without any, rays look for that light.
+  // If time runs out, the particles so far count; without any, rays find their light.
   Status follow_lamps(std::uint64_t per_half, LampLight& lamps, HalfSums& sums) {
     ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, query_, per_half, task_.paths, lamps); }));
     if (lamps.particles == 0) return {};
-    put_beside(lamps, keep_beside_, sums);
+    set_additional(lamps, fixed_additional_, sums);
     query_.leave_out_lamps();
     return {};
   }
 
-  void remember() {
-    KnownLight known = known_now_;
-    known.page = texels_.page, known.x = texels_.x, known.y = texels_.y, known.chart = texels_.chart;
-    known.near = query_.min_distance(), known.lamps = lamps_.particles > 0;
-    known.coarse = coarse_, known.direct = direct_, known.gathered = gathered_;
-    remember_light(context_, known_name_, std::move(known));
+  void store_for_reuse() {
+    PreviousLight stored = stored_;
+    stored.page = texels_.page, stored.x = texels_.x, stored.y = texels_.y, stored.chart = texels_.chart;
+    stored.min_distance = query_.min_distance(), stored.lamps = lamps_.particles > 0;
+    stored.coarse = coarse_, stored.direct = direct_, stored.gathered = gathered_;
+    store_light(context_, cache_key_, std::move(stored));
   }
 
-  // Something is close to it, and people look there.
-  bool is_crowded(std::size_t i) const { return texels_.occlusion_heavy[i] && !little_seen_[i]; }
+  // Texels of little importance do not count.
+  bool is_occlusion_heavy(std::size_t i) const { return texels_.occlusion_heavy[i] && !little_seen_[i]; }
 
-  void recall() {
-    known_name_ = name_of_known_light(query_.transport().accel.scene(), texels_, options_, query_.transport().options,
-                                      context_.seed);
-    // With one bounce nothing is known of gathered light before the gather.
+  void load_previous() {
+    cache_key_ = previous_light_key(query_.transport().accel.scene(), texels_, options_, query_.transport().options,
+                                    context_.seed);
+    // With one bounce there is no coarse estimate of gathered light to compare.
     if (options_.reuse_error <= 0 || options_.bounces == 1 || query_.groups() > 0) return;
-    if (auto known = recall_light(context_, known_name_, options_.directional)) {
-      query_.set_min_distance(known->near);  // what paths found in its light, particles must not bring
-      reuse_.emplace(texels_, std::move(*known));
+    if (auto previous = load_previous_light(context_, cache_key_, options_.directional)) {
+      query_.set_min_distance(previous->min_distance);  // light is divided between paths and particles as it was then
+      reuse_.emplace(texels_, std::move(*previous));
     }
   }
 
-  // What texels that keep their light knew of it in the end; of those whose direct light is the same, that.
-  void take_known() {
+  // Restores the previous estimate of reused texels, and of direct light that is the same.
+  void reuse_previous() {
     if (!reuse_) return;
     reuse_->compare(texels_, order_, coarse_, lamps_.particles > 0, options_.reuse_error);
-    reuse_->give(known_direct_, direct_, gathered_);
+    reuse_->restore(same_direct_, direct_, gathered_);
   }
-  bool keeps(std::size_t i) const { return reuse_ && reuse_->keeps(i); }
-  std::vector<std::uint32_t> not_kept() const {
+  bool reuses(std::size_t i) const { return reuse_ && reuse_->reuses(i); }
+  std::vector<std::uint32_t> not_reused() const {
     std::vector<std::uint32_t> list = order_;
-    std::erase_if(list, [&](std::uint32_t i) { return keeps(i); });
+    std::erase_if(list, [&](std::uint32_t i) { return reuses(i); });
     return list;
   }
 
   // Takes a few samples everywhere, then more where a neighbour's visibility differs: a shadow edge is near.
   Status first_direct() {
-    // Closed forms do not tell where light comes from, samples do; few of those that are not aimed meet it at all.
-    const bool few_tell = options_.directional || direct_light_.samples_lights();
-    const std::uint32_t first = few_tell ? 4 * kFirstDirect : kFirstDirect;
+    // Directions come from samples, not closed forms; and few randomly chosen light samples hit anything.
+    const bool few_find = options_.directional || direct_light_.samples_lights();
+    const std::uint32_t first = few_find ? 4 * kFirstDirect : kFirstDirect;
     const double begun = seconds_left();
     ORIEL_TRY_VOID(direct_light_.estimate(order_, first, task_.quick, direct_));
     const double took = begun - seconds_left();
-    // Through a gap few points see a light: none of a handful says nothing, and no neighbour tells.
-    std::vector<std::uint32_t> crowded = order_;
-    std::erase_if(crowded, [&](std::uint32_t i) { return !is_crowded(i); });
-    ORIEL_TRY_VOID(direct_light_.estimate(crowded, std::max(first, kCrowdedDirect), task_.quick, direct_));
-    known_now_.glance = direct_.value;
-    if (reuse_) reuse_->give_first(known_direct_ = reuse_->same_glance(graph_, direct_.value), direct_.value);
-    // Bounces start from it: what is uncertain by more than a few percent would tint them all.
+    // Few points see a light through a gap: a handful that see none is no evidence.
+    std::vector<std::uint32_t> occluded = order_;
+    std::erase_if(occluded, [&](std::uint32_t i) { return !is_occlusion_heavy(i); });
+    ORIEL_TRY_VOID(direct_light_.estimate(occluded, std::max(first, kOccludedDirect), task_.quick, direct_));
+    stored_.first_pass = direct_.value;
+    if (reuse_) reuse_->restore_unrefined(same_direct_ = reuse_->same_first_pass(graph_, direct_.value), direct_.value);
+    // Bounces start from direct light: an error of more than a few percent would tint them all.
     std::uint32_t per_half = first;
     const double least = (1 - kDirectTime) * seconds_left();
     for (int round = 0; round < kDirectRounds; ++round) {
@@ -184,15 +184,15 @@ class CachedEstimator : public LightEstimator {
       if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
       std::vector<std::uint32_t> list = order_;
       std::erase_if(list, [&](std::uint32_t i) {
-        return little_seen_[i] || (reuse_ && known_direct_[i]) || direct_.per_half[i] >= per_half;
+        return little_seen_[i] || (reuse_ && same_direct_[i]) || direct_.per_half[i] >= per_half;
       });
-      keep_uncertain(direct_, beside_, round == 0 ? 0 : kUncertain, context_, list);
-      // Each round may be four times as long as the one before: it is not begun where it would not end in time.
+      keep_uncertain(direct_, error_graph_, round == 0 ? 0 : kUncertain, context_, list);
+      // A round that would not end in time is not begun.
       const double more = 1.0 * per_half / first * (double(list.size()) / double(order_.size()));
       if (options_.left && took * more > seconds_left() - least) break;
       ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, task_.quick, direct_));
     }
-    known_now_.first_direct = direct_.value;
+    stored_.unrefined_direct = direct_.value;
     return {};
   }
 
@@ -201,7 +201,7 @@ class CachedEstimator : public LightEstimator {
   bool out_of_rays() const { return refined() >= task_.most_work(texels_.count()); }
   bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }
 
-  // Runs a refinement, which each texel gets whole or not at all, until there is enough.
+  // Runs a refinement until `enough`; each texel gets it whole or not at all.
   Status refine(const std::function<Status()>& refinement) {
     const Interruptible until(context_, options_.enough);
     if (const Status status = refinement(); status || context_.stop) return status;
@@ -209,7 +209,7 @@ class CachedEstimator : public LightEstimator {
     return {};
   }
 
-  // The refinement of a list's texels, those that have the same number of samples at a time.
+  // Refines a list by groups of texels with the same number of samples.
   template <class Work>
   Status by_samples(const std::vector<std::uint32_t>& list, const std::vector<std::uint32_t>& samples,
                     const Work& work) {
@@ -233,10 +233,10 @@ class CachedEstimator : public LightEstimator {
     return light;
   }
 
-  // Measured over texels that are baked: what others keep is not theirs to make up for.
-  Part part(Part part) const {
-    part.measure(not_kept(), frames_.importance());
-    return part;
+  // Measured over the texels that are not reused: refining them cannot reduce the others' error.
+  LightComponent component(LightComponent component) const {
+    component.measure(not_reused(), frames_.importance());
+    return component;
   }
 
   bool is_dark(std::size_t i) const {
@@ -245,10 +245,10 @@ class CachedEstimator : public LightEstimator {
 
   std::uint32_t most_gathered() const { return std::max(1u, most_rays_.of_both() / kHalves); }
 
-  // Texels that time leaves none of the first rays keep the light of the bounces.
+  // Texels without any gather ray, for lack of time, take the light of the bounces.
   Status first_gather() {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
-    std::vector<std::uint32_t> list = not_kept();
+    std::vector<std::uint32_t> list = not_reused();
     const auto gather_list = [&](std::uint32_t n) {
       return refine([&] { return gather_.run(list, n, task_.paths, gathered_); });
     };
@@ -256,12 +256,12 @@ class CachedEstimator : public LightEstimator {
     for (const std::uint32_t i : list)
       if (gathered_.samples[i] == 0 && texels_.visible[i] > 0)
         gathered_.set_assumed(i, irradiance_[i] - direct_.value[i] - gathered_.mean(i), kCoarseError, sweeps_.grouped);
-    std::erase_if(list, [&](std::uint32_t i) { return !is_crowded(i); });
-    if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half && !ended_early_)
+    std::erase_if(list, [&](std::uint32_t i) { return !is_occlusion_heavy(i); });
+    if (const std::uint32_t more = std::min(most_gathered(), kFirstOccluded); more > per_half && !ended_early_)
       ORIEL_TRY_VOID(gather_list(more));
     update_estimate();
-    // In a gap few rays find any light: none of a handful says nothing.
-    for (std::uint32_t more = 2 * kFirstCrowded; more <= std::min(most_gathered(), kMostDark); more *= 2) {
+    // Few rays find light in a gap: a handful that find none is no evidence.
+    for (std::uint32_t more = 2 * kFirstOccluded; more <= std::min(most_gathered(), kMostDark); more *= 2) {
       std::erase_if(list, [&](std::uint32_t i) { return !is_dark(i) || gathered_.samples[i] >= more; });
       if (list.empty() || ended_early_) break;
       ORIEL_TRY_VOID(gather_list(more));
@@ -277,30 +277,31 @@ class CachedEstimator : public LightEstimator {
     if (error <= 0) return {};
     if (options_.enough) context_.finishable = true;
     const double goal = error * error;
-    WorkLeft left(goal, static_cast<double>(first_work_), task_.most_work(texels_.count()));
+    ProgressEstimate progress(goal, static_cast<double>(first_work_), task_.most_work(texels_.count()));
     for (;;) {
-      const Part direct = part({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
-                                static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
-      const Part gathered = part({gathered_.samples, most_gathered(), kGatherGain,
-                                  RadiosityTask::kQuickRays * static_cast<double>(gather_rays_),
-                                  frames_.squares(light(), estimate_.variance)});
+      const LightComponent direct =
+          component({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
+                     static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
+      const LightComponent gathered = component({gathered_.samples, most_gathered(), kGatherGain,
+                                                 RadiosityTask::kQuickRays * static_cast<double>(gather_rays_),
+                                                 frames_.squares(light(), estimate_.variance)});
       double now = direct.mean + gathered.mean;
-      if (const double stuck = direct.stuck + gathered.stuck; stuck > goal) now -= stuck;
-      context_.foretell("refinement", left.done(refined(), now));
+      if (const double converged = direct.converged + gathered.converged; converged > goal) now -= converged;
+      context_.foretell("refinement", progress.fraction(refined(), now));
       if (now <= goal && (direct.mean + gathered.mean <= goal || !most_rays_.raise())) return {};
       if ((ended_early_ = done()) || (out_of_rays_ = out_of_rays())) return {};
       const FrameGoal to_reach{importance_, now, goal};
-      const auto worst = [&](const Part& p) { return worst_of(beside_, not_kept(), p, to_reach, context_); };
+      const auto worst = [&](const auto& p) { return worst_of(error_graph_, not_reused(), p, to_reach, context_); };
       std::vector<std::uint32_t> list;
       if (direct.pays_more_than(gathered) && !(list = worst(direct)).empty()) {
-        ORIEL_TRY_VOID(refine_direct(list, direct.most));
+        ORIEL_TRY_VOID(refine_direct(list, direct.max_samples));
       } else if (particles_pay(lamps_, gathered_, light(), frames_)) {
         ORIEL_TRY_VOID(follow_lamps(2 * lamps_.particles, lamps_, gathered_));
         update_estimate();
       } else if (!(list = worst(gathered)).empty()) {
         ORIEL_TRY_VOID(refine_gathered(list));
       } else if (!(list = worst(direct)).empty()) {
-        ORIEL_TRY_VOID(refine_direct(list, direct.most));
+        ORIEL_TRY_VOID(refine_direct(list, direct.max_samples));
       } else if (!most_rays_.raise()) {
         return {};
       }
@@ -329,12 +330,12 @@ class CachedEstimator : public LightEstimator {
   }
 
   // Gathers as many samples again, with longer paths. The old ones stay if time runs out.
-  Status gather_from_further() {
+  Status gather_with_longer_paths() {
     const float before = query_.min_distance();
-    if (before >= kFurther) return {};  // as the bake before did, whose light is known
-    query_.set_min_distance(kFurther);
+    if (before >= kLongerPaths) return {};  // as did the previous bake, whose light is reused
+    query_.set_min_distance(kLongerPaths);
     HalfSums anew = gathered_;
-    const std::vector<std::uint32_t> list = not_kept();
+    const std::vector<std::uint32_t> list = not_reused();
     for (const std::uint32_t i : list) anew.clear(i);
     LampLight lamps(texels_.count(), options_.directional, query_.groups());
     if (lamps_.particles > 0) ORIEL_TRY_VOID(follow_lamps(lamps_.particles, lamps, anew));
@@ -346,7 +347,7 @@ class CachedEstimator : public LightEstimator {
       return {};
     }
     for (std::size_t i = 0; i < texels_.count(); ++i)
-      if ((keep_beside_[i] = keeps(i))) anew.copy_additional(i, gathered_);
+      if ((fixed_additional_[i] = reuses(i))) anew.copy_additional(i, gathered_);
     gathered_ = std::move(anew), lamps_ = std::move(lamps);
     update_estimate();
     return {};
@@ -360,31 +361,31 @@ class CachedEstimator : public LightEstimator {
   ExtraSamplePoints sample_points_;
   DirectLight direct_light_;
   CacheQuery query_;
-  TexelGraph graph_, beside_;  // texels that smooth each other; and those that tell of each other's errors
-  Sweeps sweeps_;              // bounces on patches
+  TexelGraph graph_, error_graph_;  // for smoothing light; for averaging errors
+  Sweeps sweeps_;                   // bounces on patches
   DirectSums direct_;
   HalfSums gathered_;
   LampLight lamps_;
-  std::vector<bool> keep_beside_;  // by texel: its rays have the light of other particles than now follow the lamps
-  Estimate smooth_direct_;         // of the direct light
-  Estimate estimate_;              // of the gathered light
-  std::vector<Vec3> irradiance_;   // what gather rays find at a texel
-  std::vector<Vec3> coarse_;       // of it what is no particles'
-  CachedLight cached_;             // the same, as it varies over texels
+  std::vector<bool> fixed_additional_;  // by texel: its additional light is that of former particles
+  Estimate smooth_direct_;              // of the direct light
+  Estimate estimate_;                   // of the gathered light
+  std::vector<Vec3> irradiance_;        // of texels as gather rays find it, lux
+  std::vector<Vec3> coarse_;            // without light of particles, lux
+  CachedLight cached_;                  // irradiance_ with slopes
   const FinalGather gather_{sample_points_, query_, cached_};
-  BrightTexels bright_;             // what rays are aimed at in it
-  GroupedLight grouped_;            // irradiance_ by group of lamps, if asked
-  std::optional<Reuse> reuse_;      // of the bake before
-  std::vector<bool> known_direct_;  // by texel: its direct light is that of the bake before
-  Hash128 known_name_;
-  KnownLight known_now_;  // for the next bake
+  BrightTexels bright_;            // importance sampled texels of it
+  GroupedLight grouped_;           // irradiance_ by light group; may be empty
+  std::optional<Reuse> reuse_;     // of the previous bake
+  std::vector<bool> same_direct_;  // by texel: direct light is that of the previous bake
+  Hash128 cache_key_;
+  PreviousLight stored_;  // for the next bake
   FrameError frames_;
   MostRays most_rays_;
-  std::vector<float> importance_;                    // of frames that a texel fills, as its surroundings tell
+  std::vector<float> importance_;                    // by texel: fraction of the frame pixels, neighbourhood average
   std::vector<bool> little_seen_;                    // by texel
-  float mean_luminance_ = 0;                         // of the light of texels that see any, lux
+  float mean_luminance_ = 0;                         // over visible texels, lux
   std::uint64_t direct_rays_ = 0, gather_rays_ = 0;  // of refinements
-  std::uint64_t first_work_ = 0, first_rays_ = 0;  // RadiosityTask::work, and rays, of what comes before any refinement
+  std::uint64_t first_work_ = 0, first_rays_ = 0;    // cost and rays before any refinement
   bool ended_early_ = false, out_of_rays_ = false;
 };
 

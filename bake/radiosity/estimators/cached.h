@@ -1,4 +1,4 @@
-// The `cached` estimator: bounces live in the lightmap, and one final gather refines them.
+// The `cached` estimator: a radiosity solution in the lightmap, refined by one final gather.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 
 namespace oriel {
 
-// Effort goes where the task's pixels look. Fills of the report what is of the cached estimator. Error kStopped;
-// refine() also kInvalid where light does not die away.
+// Creates it for a task, which must outlive it. Samples go where the task's frame pixels need them. write() fills the
+// report's fields marked `cached`. Error kStopped; refine() also kInvalid where light does not die away.
 Result<std::unique_ptr<LightEstimator>> make_cached_estimator(const RadiosityTask& task);
 
 }  // namespace oriel

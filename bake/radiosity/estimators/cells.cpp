@@ -10,18 +10,19 @@
 namespace oriel {
 namespace {
 
-constexpr float kEdge = 0.25f;     // of a second difference: what interpolation misses at an edge
-constexpr double kBeside = 0.4;    // of the error allowed: from there on what lies beside a chosen cell is one too
-constexpr double kNextLevel = 3;   // times the error
-constexpr double kUntold = 0.1;    // relative, that interpolation may miss where texels do not tell of it: in narrow
-                                   // charts, and at the rim of one where something is close by
-constexpr float kWhole = 0.999f;   // of a texel that is visible
-constexpr double kCoarser = 1.25;  // times the error, until there are few enough points
-constexpr float kNoise = 3;        // standard errors of a texel: what may bend by chance
-constexpr std::uint64_t kAlongAnEdge = 4;  // points a step in a cell, of those that are not lit as a whole
+constexpr float kEdge = 0.25f;      // of a second difference: error of interpolation at an edge
+constexpr double kNeighbour = 0.4;  // of the error allowed: neighbours of a chosen cell above it are chosen too
+constexpr double kNextLevel = 3;    // factor of the error
+// Assumed relative error where texels cannot give one: in narrow charts, and at the rim of a chart with an occluder
+// near.
+constexpr double kUnevaluated = 0.1;
+constexpr float kWhole = 0.999f;           // of a visible texel
+constexpr double kCoarser = 1.25;          // factor of the error, until there are few enough points
+constexpr float kNoise = 3;                // standard errors of a texel: second differences by noise
+constexpr std::uint64_t kAlongAnEdge = 4;  // points a step, in cells lit along an edge only
 constexpr std::uint32_t kNone = ~0u;
 
-// What is known of the texels of a page, by place.
+// Texel data of a page, by place.
 class PageCells {
  public:
   PageCells(const Atlas& atlas, const TexelMapPage& map, const LightmapPage& page, const std::vector<float>& visible,
@@ -41,7 +42,7 @@ class PageCells {
     }
   }
 
-  // usual: share of frames of a texel. left: cells to leave as they are, none where empty.
+  // usual: mean importance of a texel. left: cells to leave as they are; may be empty.
   void add(std::uint32_t page_number, const CellGoal& goal, double usual, const std::vector<bool>& left,
            std::vector<CellCandidate>& found) const {
     for (std::uint32_t y = 0; y + 1 < page_.height; ++y)
@@ -56,7 +57,7 @@ class PageCells {
   bool valid(std::uint32_t i) const { return page_.state[map_.texel[i]] == TexelState::kValid; }
   float light(std::uint32_t i) const { return luminance(page_.irradiance[map_.texel[i]]); }
 
-  std::uint32_t beside(std::uint32_t i, int dx, int dy) const {
+  std::uint32_t neighbour(std::uint32_t i, int dx, int dy) const {
     const int x = static_cast<int>(map_.texel[i] % page_.width) + dx,
               y = static_cast<int>(map_.texel[i] / page_.width) + dy;
     if (x < 0 || y < 0 || x >= static_cast<int>(page_.width) || y >= static_cast<int>(page_.height)) return kNone;
@@ -64,19 +65,19 @@ class PageCells {
     return other != kNone && valid(other) && chart_[other] == chart_[i] ? other : kNone;
   }
 
-  // The largest second difference, less what noise may bring; nothing where a chart is too narrow for one.
+  // The largest second difference less its noise; nothing where a chart is too narrow for one.
   template <class Light, class Error>
   std::optional<float> bend_at(std::uint32_t i, const Light& light, const Error& error) const {
     if (!valid(i)) return std::nullopt;
     float most = -1;
     for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
-      const std::uint32_t before = beside(i, -dx, -dy), after = beside(i, dx, dy);
+      const std::uint32_t before = neighbour(i, -dx, -dy), after = neighbour(i, dx, dy);
       if (before != kNone && after != kNone)
         most = std::max(most, std::fabs(light(before) - 2 * light(i) + light(after)));
-      // At the foot of something light bends as it does a texel away from it.
-      else if (const std::uint32_t further = after != kNone ? beside(after, dx, dy) : kNone; further != kNone)
+      // At the foot of an object the second difference is taken one texel away from it.
+      else if (const std::uint32_t further = after != kNone ? neighbour(after, dx, dy) : kNone; further != kNone)
         most = std::max(most, std::fabs(light(i) - 2 * light(after) + light(further)));
-      else if (const std::uint32_t back = before != kNone ? beside(before, -dx, -dy) : kNone; back != kNone)
+      else if (const std::uint32_t back = before != kNone ? neighbour(before, -dx, -dy) : kNone; back != kNone)
         most = std::max(most, std::fabs(light(i) - 2 * light(before) + light(back)));
     }
     if (most < 0) return std::nullopt;
@@ -87,7 +88,7 @@ class PageCells {
     float bend = 0, reflected_bend = 0;
     double light_sum = 0, share = 0;
     int corners = 0;
-    bool crowded = false, narrow = true;
+    bool occlusion_heavy = false, narrow = true;
     for (const std::uint32_t corner :
          {cell.place, cell.place + 1, cell.place + page_.width, cell.place + page_.width + 1}) {
       const std::uint32_t i = number_[corner];
@@ -95,7 +96,7 @@ class PageCells {
       if (i == kNone || !valid(i)) continue;
       if (bend_[i]) bend = std::max(bend, *bend_[i]), narrow = false;
       if (!reflected_bend_.empty()) reflected_bend = std::max(reflected_bend, reflected_bend_[i]);
-      crowded = crowded || texels_.crowded[i];
+      occlusion_heavy = occlusion_heavy || texels_.occlusion_heavy[i];
       light_sum += double{light(i)}, share += double{texels_.importance[i]};
       ++corners;
     }
@@ -104,11 +105,11 @@ class PageCells {
     cell.light = std::sqrt(mean * mean + goal.floor * goal.floor + 1e-30);
     cell.weight = std::sqrt(share / corners / usual);
     cell.error = double{kEdge} * double{bend} / cell.light * cell.weight;
-    cell.untold = narrow || (corners < 4 && crowded);
-    if (cell.untold) cell.error = std::max(cell.error, kUntold * cell.weight);
-    cell.gathers = reflected_bend_.empty() || crowded || narrow || cell.contact ||
+    cell.unevaluated = narrow || (corners < 4 && occlusion_heavy);
+    if (cell.unevaluated) cell.error = std::max(cell.error, kUnevaluated * cell.weight);
+    cell.gathers = reflected_bend_.empty() || occlusion_heavy || narrow || cell.contact ||
                    double{kEdge} * double{reflected_bend} / cell.light * cell.weight > goal.error;
-    if (cell.contact || cell.error > kBeside * goal.error) found.push_back(cell);
+    if (cell.contact || cell.error > kNeighbour * goal.error) found.push_back(cell);
   }
 
   const TexelMapPage& map_;
@@ -121,8 +122,8 @@ class PageCells {
   CellTexels texels_;                       // likewise
 };
 
-// A further level halves what is missed at an edge, for four times the points: they do most for their number where that
-// takes about three times the error. Points that cost an eighth are worth it from a root of an eighth of that error on.
+// A further level halves the error at an edge for four times the points, which is best used at about three times the
+// error. Points at an eighth of the cost are used from √(1/8) of that error on.
 std::uint8_t level_for(double error, bool gathers, const CellGoal& goal) {
   if (!gathers) error *= std::sqrt(double{kDirectPoints});
   std::uint8_t level = 1;
@@ -131,15 +132,15 @@ std::uint8_t level_for(double error, bool gathers, const CellGoal& goal) {
   return level;
 }
 
-// As CellGoal::most_points counts them, times kDirectPoints. Cells beside each other share the points between them.
+// The number of points as CellGoal::most_points counts them, times kDirectPoints. Adjacent cells share border points.
 std::uint64_t points_of(std::uint8_t level, bool gathers, const CellGoal& goal) {
-  if (level <= goal.known) return 0;
+  if (level <= goal.lit_level) return 0;
   const std::uint64_t side = std::uint64_t{1} << std::min(level, kWholeLevel);
   const std::uint64_t finer = level > kWholeLevel ? kAlongAnEdge << level : 0;
   return (side * (side + 1) + finer) * (gathers ? kDirectPoints : 1);
 }
 
-// Candidates by place.
+// Chooses cells among the candidates.
 class Chooser {
  public:
   Chooser(std::span<const LightmapPage> pages, std::span<const CellCandidate> found) : found_(found) {
@@ -148,22 +149,22 @@ class Chooser {
       at_.emplace_back(page.state.size(), kNone);
     }
     for (std::uint32_t k = 0; k < found.size(); ++k) at_[found[k].page][found[k].place] = k;
-    // Texels that something stands on tell little of how light bends: what lies beside them does.
+    // Partly hidden texels give poor second differences: their neighbours' are used.
     for (std::uint32_t k = 0; k < found.size(); ++k) {
       error_.push_back(found[k].stays ? 0 : found[k].error);
       if (found[k].contact && !found[k].stays)
-        for_each_beside(k, [&](std::uint32_t other) { error_[k] = std::max(error_[k], found[other].error); });
+        for_each_neighbour(k, [&](std::uint32_t other) { error_[k] = std::max(error_[k], found[other].error); });
     }
   }
 
-  // Those that miss more than is allowed; and what lies beside one has as many steps where it misses nearly as much,
-  // so that edges are not drawn in dashes.
+  // Chooses cells with too large an error. A neighbour with nearly as large an error gets as many steps, so that edges
+  // are continuous.
   CellLevels choose(const CellGoal& goal, std::uint64_t& points) const {
     CellLevels levels;
     for (const auto& page : at_) levels.emplace_back(page.size());
     std::vector<std::uint32_t> chosen;
     points = 0;
-    const auto take = [&](std::uint32_t k, std::uint8_t level) {
+    const auto choose_cell = [&](std::uint32_t k, std::uint8_t level) {
       std::uint8_t& now = levels[found_[k].page][found_[k].place];
       if (level <= now) return;
       points += points_of(level, found_[k].gathers, goal) - points_of(now, found_[k].gathers, goal);
@@ -171,12 +172,12 @@ class Chooser {
       chosen.push_back(k);
     };
     for (std::uint32_t k = 0; k < found_.size(); ++k)
-      if (error_[k] > goal.error) take(k, level_for(error_[k], found_[k].gathers, goal));
+      if (error_[k] > goal.error) choose_cell(k, level_for(error_[k], found_[k].gathers, goal));
     for (std::size_t next = 0; next < chosen.size(); ++next) {
       const std::uint8_t own = levels[found_[chosen[next]].page][found_[chosen[next]].place];
-      for_each_beside(chosen[next], [&](std::uint32_t k) {
-        if (const double nearly = error_[k] / kBeside; nearly > goal.error)
-          take(k, std::min(own, level_for(nearly, found_[k].gathers, goal)));
+      for_each_neighbour(chosen[next], [&](std::uint32_t k) {
+        if (const double nearly = error_[k] / kNeighbour; nearly > goal.error)
+          choose_cell(k, std::min(own, level_for(nearly, found_[k].gathers, goal)));
       });
     }
     return levels;
@@ -184,7 +185,7 @@ class Chooser {
 
  private:
   template <class Body>
-  void for_each_beside(std::uint32_t k, const Body& body) const {
+  void for_each_neighbour(std::uint32_t k, const Body& body) const {
     for (const int dy : {-1, 0, 1})
       for (const int dx : {-1, 0, 1}) {
         const std::size_t place = found_[k].place + static_cast<std::size_t>(dy * width_[found_[k].page] + dx);
@@ -202,7 +203,7 @@ class Chooser {
 }  // namespace
 
 CellTexels CellTexels::of(std::size_t first, std::size_t count) const {
-  CellTexels some{importance.subspan(first, count), crowded.subspan(first, count), {}, {}};
+  CellTexels some{importance.subspan(first, count), occlusion_heavy.subspan(first, count), {}, {}};
   if (reflected.empty()) return some;
   some.reflected = reflected.subspan(first, count), some.reflected_variance = reflected_variance.subspan(first, count);
   return some;

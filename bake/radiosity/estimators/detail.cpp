@@ -13,12 +13,12 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kFewPoints = 1 << 14;  // small scenes may have more of each pass than this
+constexpr std::size_t kFewPoints = 1 << 14;  // lower limit on points of a pass
 constexpr std::size_t kPointsATexel = 8;
-constexpr double kUsualError = 0.02;  // where none is asked for
-constexpr double kWorth = 0.4;        // of the error allowed: what misses less needs no points that are known
+constexpr double kUsualError = 0.02;  // without a requested error
+constexpr double kNegligible = 0.4;   // of the error allowed: points of cells below it are not stored
 
-// As pixels of frames are held against (texels/frame_error.h), for one eye that sees all.
+// The floor of frame pixels (texels/frame_error.h), for one view of the whole scene, luminance, lux.
 double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<const float> importance) {
   double sum = 0, all = 0;
   std::size_t number = 0;
@@ -30,7 +30,7 @@ double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<con
   return all > 0 ? kFrameFloor * sum / all : 0;
 }
 
-// Places of a finer page are counted with 32 bits, and a mask of them is kept: at most 2^30, 128 MiB.
+// The largest side so that a page's points need at most 2^30 mask bits, 128 MiB.
 std::uint32_t most_side(const Atlas& atlas) {
   std::uint64_t largest = 1;
   for (const AtlasPage& page : atlas.pages)
@@ -42,33 +42,33 @@ std::uint32_t most_side(const Atlas& atlas) {
 
 class DetailMaker {
  public:
-  DetailMaker(const RadiosityTask& task, const TexelLight& known, const CellGoal& goal, Radiosity& light)
-      : task_(task), known_(known), goal_(goal), light_(light) {}
+  DetailMaker(const RadiosityTask& task, const TexelLight& texel_light, const CellGoal& goal, Radiosity& light)
+      : task_(task), texel_light_(texel_light), goal_(goal), light_(light) {}
 
-  // Two steps first, wherever more may be needed; where these tell of it, more.
+  // Lights two steps first, wherever the estimate requires it, and more where their measured error does.
   Status run() {
     CellGoal first = goal_;
     first.most_side = 2;
-    std::vector<CellCandidate> found = find_cells(
-        task_.atlas, task_.map, light_,
-        {known_.importance, known_.texels.occlusion_heavy, known_.reflected.value, known_.reflected.variance},
-        goal_);
+    std::vector<CellCandidate> found = find_cells(task_.atlas, task_.map, light_,
+                                                  {texel_light_.importance, texel_light_.texels.occlusion_heavy,
+                                                   texel_light_.reflected.value, texel_light_.reflected.variance},
+                                                  goal_);
     mark_gathering(found);
     CellLevels levels = choose_cells(light_.pages, found, first);
     ORIEL_TRY_VOID(light_cells(levels, 1, 0));
-    const std::vector<CellCandidate> foretold = std::exchange(found, measured(levels, found));
+    const std::vector<CellCandidate> predicted = std::exchange(found, measured(levels, found));
     mark_gathering(found);
     CellGoal further = goal_;
-    further.known = 1;
+    further.lit_level = 1;
     levels = choose_cells(light_.pages, found, further);
     for (const CellCandidate& cell : found)
-      if (std::uint8_t& level = levels[cell.page][cell.place]; level == 0 && cell.error > kWorth * goal_.error)
+      if (std::uint8_t& level = levels[cell.page][cell.place]; level == 0 && cell.error > kNegligible * goal_.error)
         level = 1;
     for (std::uint8_t level = 2; level <= kDetailLevels; ++level)
       ORIEL_TRY_VOID(light_cells(levels, level, level == 2 ? 0.3 : 0.6));
     add_all_blocks(levels, light_.pages);
     report(levels);
-    light_.report.detail.unresolved = unresolved(foretold, levels);
+    light_.report.detail.unresolved = unresolved(predicted, levels);
     add_groups(levels);
     return {};
   }
@@ -86,7 +86,7 @@ class DetailMaker {
     for (std::uint32_t p = 0; p < pages.size(); ++p) add_blocks(task_.map[p], levels[p], p, points, pages[p]);
   }
 
-  // Of each group, from its light at the points; their noise is taken to be that of as many paths.
+  // Adds the blocks of each light group; a group's share of the variance is taken as its share of the light.
   void add_groups(const CellLevels& levels) {
     std::array<std::vector<Vec3>, kDetailLevels> light, variance;
     for (std::size_t k = 0; k < points_.size(); ++k)
@@ -109,12 +109,12 @@ class DetailMaker {
     task_.context.foretell("detail", done);
     ORIEL_TRY(const DetailPoints points,
               list_points(task_.atlas, levels, level, points_wanted(levels, level), task_.context));
-    ORIEL_TRY(PointLight lit, light_points(own_, known_, points, gathers_));
+    ORIEL_TRY(PointLight lit, light_points(own_, texel_light_, points, gathers_));
     points_[level - 1u] = std::make_unique<PointLight>(std::move(lit));
     return {};
   }
 
-  // All of the levels that are lit as a whole; of finer ones those between points that differ by more than is allowed.
+  // All points up to kWholeLevel; of finer levels those between points that differ by more than the error allowed.
   PointFilter points_wanted(const CellLevels& levels, std::uint8_t level) const {
     if (level <= kWholeLevel) return [](auto...) { return true; };
     auto whole = std::make_shared<std::vector<LevelGrid>>();
@@ -127,7 +127,7 @@ class DetailMaker {
     };
   }
 
-  // Of the candidates those that are lit, with the error that their points tell of.
+  // The lit candidates, with the error measured by their points.
   std::vector<CellCandidate> measured(const CellLevels& levels, std::span<const CellCandidate> found) {
     std::vector<CellCandidate> measured;
     for (std::uint32_t p = 0; points_[0] && p < levels.size(); ++p) {
@@ -136,21 +136,22 @@ class DetailMaker {
       for (CellCandidate cell : found)
         if (cell.page == p && levels[p][cell.place] > 0)
           if (const auto missed = grid.missed(cell.place % width, cell.place / width)) {
-            const Told told = points_tell(p, cell.place);
-            cell.error = std::sqrt(*missed * *missed + told.uneven) / cell.light * cell.weight;
-            cell.gathers = cell.gathers && told.reflected_missed / cell.light * cell.weight > goal_.error;
+            const CellErrors errors = evaluate_points(p, cell.place);
+            cell.error = std::sqrt(*missed * *missed + errors.uneven) / cell.light * cell.weight;
+            cell.gathers = cell.gathers && errors.reflected_missed / cell.light * cell.weight > goal_.error;
             measured.push_back(cell);
           }
     }
     return measured;
   }
 
-  // Of luminance. Next to a lamp light varies within the points so much that the filter takes it for noise.
-  struct Told {
-    double reflected_missed = 0;  // what texels miss of reflected light in a cell: rms beyond the points' noise
+  // Errors in a cell by its points, luminance. Next to a lamp light varies so much within the points that the filter
+  // takes it for noise.
+  struct CellErrors {
+    double reflected_missed = 0;  // rms difference of reflected light from the texels, beyond noise
     double uneven = 0;            // mean of PointLight::uneven
   };
-  Told points_tell(std::uint32_t page, std::uint32_t place) const {
+  CellErrors evaluate_points(std::uint32_t page, std::uint32_t place) const {
     const PointLight& lit = *points_[0];
     const std::uint32_t width = light_.pages[page].width;
     double squares = 0, uneven = 0, count = 0;
@@ -166,13 +167,14 @@ class DetailMaker {
     return {std::sqrt(std::max(0.0, squares) / count), uneven / count};
   }
 
-  // Over the pixels that eyes see. An edge through a cell is missed in half the area with each further level. What no
-  // points were asked for is off as was foretold, by as much as those were that were asked.
-  double unresolved(std::span<const CellCandidate> foretold, const CellLevels& levels) const {
+  // The remaining error of interpolation, rms over frame pixels. At an edge each further level halves the area in
+  // error. Cells without points have the predicted error, scaled by measured over predicted error of the cells with
+  // points.
+  double unresolved(std::span<const CellCandidate> predicted, const CellLevels& levels) const {
     std::vector<std::vector<const CellCandidate*>> at;
     for (const auto& page : levels) at.emplace_back(page.size());
-    for (const CellCandidate& cell : foretold) at[cell.page][cell.place] = &cell;
-    std::array<double, 2> told{}, met{}, rest{};  // squares, of cells that texels tell of and of others
+    for (const CellCandidate& cell : predicted) at[cell.page][cell.place] = &cell;
+    std::array<double, 2> predicted_sum{}, measured_sum{}, rest{};  // squares, of evaluated and of unevaluated cells
     double left = 0;
     for (const FramePixel& pixel : task_.pixels) {
       const CellCandidate* cell = at[pixel.page][pixel.texel[0]];
@@ -184,15 +186,15 @@ class DetailMaker {
                               ? std::nullopt
                               : grids_[pixel.page].missed_at(pixel.texel[0] % width, pixel.texel[0] / width, within);
       if (!missed) {
-        rest[cell->untold] += guess;
+        rest[cell->unevaluated] += guess;
         continue;
       }
       const double light2 = cell->light * cell->light, square = missed->square / light2;
       const std::uint8_t level = levels[pixel.page][pixel.texel[0]];
-      told[cell->untold] += guess, met[cell->untold] += square;
+      predicted_sum[cell->unevaluated] += guess, measured_sum[cell->unevaluated] += square;
       left += std::ldexp(square, -level) + (level > 0 ? missed->noise / light2 : 0);
     }
-    for (int k = 0; k < 2; ++k) left += told[k] > 0 ? rest[k] * met[k] / told[k] : rest[k];
+    for (int k = 0; k < 2; ++k) left += predicted_sum[k] > 0 ? rest[k] * measured_sum[k] / predicted_sum[k] : rest[k];
     return std::sqrt(left / static_cast<double>(std::max<std::size_t>(1, task_.pixels.size())));
   }
 
@@ -215,10 +217,10 @@ class DetailMaker {
   }
 
   const RadiosityTask& task_;
-  const TexelLight& known_;
+  const TexelLight& texel_light_;
   const CellGoal goal_;
   Radiosity& light_;
-  // Counted apart: the texels' refinement, which may go on, has so many rays of its own.
+  // Counted apart from the refinement of texels, which may go on.
   std::atomic<std::uint64_t> rays_{0}, quick_rays_{0};
   const RadiosityTask own_{
       task_, task_.pixels, task_.options, task_.context, {task_.context, &rays_}, {task_.context, &quick_rays_}};
@@ -229,17 +231,17 @@ class DetailMaker {
 
 }  // namespace
 
-Status add_detail(const RadiosityTask& task, const TexelLight& known, Radiosity& light) {
+Status add_detail(const RadiosityTask& task, const TexelLight& texel_light, Radiosity& light) {
   CellGoal goal{.error = task.options.error > 0 ? task.options.error : kUsualError,
-                .floor = floor_of(task, light, known.importance),
+                .floor = floor_of(task, light, texel_light.importance),
                 .most_side = std::min(task.options.detail, most_side(task.atlas))};
   if (goal.most_side < 2) {
     task.context.warning(
         "the lightmap's pages are too large for finer cells: a smaller --max-page leaves room for them");
     return {};
   }
-  goal.most_points = std::max(kFewPoints, kPointsATexel * known.texels.count());
-  return DetailMaker(task, known, goal, light).run();
+  goal.most_points = std::max(kFewPoints, kPointsATexel * texel_light.texels.count());
+  return DetailMaker(task, texel_light, goal, light).run();
 }
 
 }  // namespace oriel

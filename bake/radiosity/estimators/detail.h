@@ -1,12 +1,12 @@
-// Finer light where the lightmap's texels miss too much: contact shadows, edges of shadows.
+// Finer light between texels where their interpolation is not accurate enough: contact shadows, edges of shadows.
 #pragma once
 
 #include "bake/radiosity/estimators/point_light.h"
 
 namespace oriel {
 
-// Chooses cells by the light as it stands and fills LightmapPage::cell and detail, and the report's numbers of them.
-// Error kStopped: the pages are as they were.
-Status add_detail(const RadiosityTask& task, const TexelLight& known, Radiosity& light);
+// Chooses cells by the light as it stands. Fills LightmapPage::cell and detail, Radiosity::groups and the report's
+// DetailReport. Error kStopped: the pages are unchanged.
+Status add_detail(const RadiosityTask& task, const TexelLight& texel_light, Radiosity& light);
 
 }  // namespace oriel

@@ -30,10 +30,10 @@ Conductance conductances(const Texels& texels, const TexelGraph& graph, const Gu
 
 std::vector<float> diffusion_steps(float time) {
   if (time <= kPlainSteps) return std::vector<float>(static_cast<std::size_t>(std::ceil(time)), time / std::ceil(time));
-  // Of a cycle the least n with (n² + n) / 3 >= its time, its steps shortened alike.
+  // The smallest n with (n² + n) / 3 >= the cycle's time; all steps are then shortened by the same factor.
   const double cycle = 0.5 * double{time};
   const double n = std::ceil(std::sqrt(3 * cycle + 0.25) - 0.5 - 1e-6), shortened = 3 * cycle / (n * n + n);
-  std::vector<double> rate, product;  // 1 / step; of its differences to those chosen before
+  std::vector<double> rate, product;  // 1 / step; product of its differences to those chosen before
   for (int i = 0; i < static_cast<int>(n); ++i) {
     const double c = std::cos(kPi * (2 * i + 1) / (4 * n + 2));
     rate.push_back(2 * c * c), product.push_back(1);
@@ -56,7 +56,7 @@ Flow further_flow(const Conductor& over, std::vector<Vec3> values, float time, C
   const Conductance& conductance = over.conductance;
   const std::size_t n = values.size();
   std::vector<Vec3> next(n), sum(n, Vec3(0));
-  // Edges conduct alike at all times: their flow is that of the sum over steps.
+  // Conductances are constant in time: an edge's flow is that of the values summed over steps.
   const std::vector<float> steps = diffusion_steps(time);
   for (const float sign : {1.0f, -1.0f})
     for (const float step : steps) {

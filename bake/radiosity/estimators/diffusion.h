@@ -1,4 +1,4 @@
-// Conservative diffusion of light over the graph of texels, and pooling of what is told of them.
+// Conservative diffusion of light over the graph of texels, and pooling of per-texel statistics.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace oriel {
 
-// body(i) for every texel, in parallel.
+// Calls body(i) for every texel, in parallel.
 template <class Body>
 void each_texel(Context& context, std::size_t count, const Body& body) {
   constexpr std::size_t kRun = 1024;
@@ -19,18 +19,18 @@ void each_texel(Context& context, std::size_t count, const Body& body) {
   });
 }
 
-// Conductances of the graph's edges over the area of their first texel, in the order of TexelGraph::of(). Times areas
-// they are symmetric, so that what one texel gains its neighbour loses.
+// Conductances of the graph's edges over the area of their first texel, in the order of TexelGraph::of(). Times that
+// area they are symmetric: a texel gains as much as its neighbour loses.
 using Conductance = std::vector<std::array<float, kMaxNeighbours>>;
 
-// Light by texel, or what it has beside that around, with its variance.
+// A guide image of the filter: light by texel, or its deviation from its neighbourhood, with the variance of that.
 struct Guide {
   const std::vector<Vec3>& light;
   const std::vector<Vec3>& variance;
-  float strength = 1;      // standard deviations are as many times as wide
-  bool everywhere = true;  // whether it tells texels apart that nothing stands or hangs close to
+  float strength = 1;      // factor of the standard deviations
+  bool everywhere = true;  // false: it separates occlusion-heavy texels only
 
-  // Squared difference of two texels over its variance; worst channel decides.
+  // The squared difference of two texels over its variance, in the worst channel.
   float distance2(std::size_t i, std::size_t j) const {
     const Vec3 &a = light[i], &b = light[j], d = a - b;
     const Vec3 s = (variance[i] + variance[j]) * (strength * strength) + 1e-12f * (a * a + b * b) + Vec3(1e-30f);
@@ -38,25 +38,25 @@ struct Guide {
   }
 };
 
-// Smoothed light tells a gentle slope from noise, but a single dark texel from its surroundings it does not: raw light
-// does, though only beyond what noise brings about by itself. Texels partly inside other bodies join nobody.
+// Conductances by two guides. Smoothed light distinguishes a gentle slope from noise, but not a single dark texel from
+// its neighbourhood: raw light does, for differences beyond its noise. Texels partly inside other bodies have no edges.
 Conductance conductances(const Texels& texels, const TexelGraph& graph, const Guide& smoothed, const Guide& raw,
                          Context& context);
 
-// What light diffuses over.
+// The graph with its conductances.
 struct Conductor {
   const TexelGraph& graph;
   const Conductance& conductance;
 };
 
-// Steps of explicit diffusion that together last `time`, in units of the longest that is stable alone. Short times take
-// that one. Longer ones two cycles of n steps, each of which lasts (n² + n) / 3 (fast explicit diffusion: Grewenig,
-// Weickert & Bruhn 2010), in an order in which rounding errors do not grow (Leja's). A cycle alone is a box, which lets
-// 1 / (2n + 1) of the finest noise pass; two leave its square.
+// Steps of explicit diffusion that sum to `time`, in units of the longest stable single step. A short time takes such
+// steps. A longer one takes two cycles of n steps, each of which lasts (n² + n) / 3 (fast explicit diffusion: Grewenig,
+// Weickert & Bruhn 2010), in an order that keeps rounding errors bounded (Leja's). One cycle is a box filter, which
+// passes 1 / (2n + 1) of the finest noise; two pass its square.
 std::vector<float> diffusion_steps(float time);
 
-// `values` after that time: light spreads by √(2 time / 3) texels along each axis of a plain surface, and keeps its sum
-// over texels weighed by area.
+// Returns `values` after diffusion for `time`: light spreads by √(2 time / 3) texels along each axis of a plane. The
+// area-weighted sum stays.
 template <class V>
 std::vector<V> diffuse(const Conductor& over, std::vector<V> values, float time, Context& context) {
   const TexelGraph& graph = over.graph;
@@ -74,18 +74,18 @@ std::vector<V> diffuse(const Conductor& over, std::vector<V> values, float time,
   return values;
 }
 
-// Along each edge of the graph, into its first texel, in the order of TexelGraph::of(): times the texel's area, what
-// the other one loses.
+// The flow along each edge into its first texel, in the order of TexelGraph::of(). Times the texel's area it is the
+// other texel's loss.
 using Flow = std::vector<std::array<Vec3, kMaxNeighbours>>;
 
-// The flow that smooths `values` over that time. Diffusion changes light that bends, by as much again in the same time
-// once more: its flow less that of the next such time leaves quadratic light as it is, and linear light also where a
-// surface ends (twicing, Tukey 1977).
+// The flow that smooths `values` over `time`, with the filter's bias corrected by twicing (Tukey 1977): diffusion for
+// the same time once more repeats the bias, so that second flow is subtracted. Quadratic light is left unchanged, and
+// linear light also at the end of a surface.
 Flow further_flow(const Conductor& over, std::vector<Vec3> values, float time, Context& context);
 
-// A quantity spread over each texel's surroundings, `passes` wide. Its sum over texels stays: what a texel gains its
-// neighbour loses, so that errors at rims and in corners, where the filter's bias is greatest, count in full. share(i,
-// j): whether these two have a common quantity at all.
+// Averages a quantity over each texel's neighbourhood, `passes` wide. The sum over texels stays, so that errors at rims
+// and in corners, where the filter's bias is largest, keep their weight. share(i, j): true if the two texels exchange
+// the quantity.
 template <class V, class Share>
 std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, const Share& share,
                       Context& context) {

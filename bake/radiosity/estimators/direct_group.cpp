@@ -18,7 +18,7 @@ DirectGroup::DirectGroup(const DirectLight& direct, std::span<const std::uint32_
       tallies_(list.size()),
       grouped_(list.size(), scene().light_groups.size()),
       grouped_difference_(grouped_),
-      grouped_passed_{grouped_, grouped_} {
+      grouped_transmitted_{grouped_, grouped_} {
   for (std::uint32_t i = 0; i < list.size(); ++i)
     if (d_.texels_.visible[list[i]] > 0) add_points(i);
 }
@@ -26,22 +26,22 @@ DirectGroup::DirectGroup(const DirectLight& direct, std::span<const std::uint32_
 void DirectGroup::run(DirectSums& sums) {
   sample_polygon_lights();
   for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
-    aim_at_punctual(l);
+    sample_punctual_light(l);
     finish_light(Vec3(1), scene().lights[l].light_group, hours_of(scene().lights[l]), per_half_);
   }
   const VirtualLights& mirrored = d_.t_.lights.mirrored();
   const auto [centre, radius] = sphere_about_points();
   for (std::uint32_t i = 0; i < mirrored.size(); ++i) {
     if (mirrored[i].order > d_.t_.options.max_bounces || !mirrored[i].may_reach(centre, radius)) continue;
-    aim_at_mirrored(i);
+    sample_mirrored_light(i);
     const Light& light = scene().lights[mirrored[i].light];
     finish_light(Vec3(1), light.light_group, hours_of(light), per_half_);
   }
   const auto any = [&](const Point& p, Sampler& sampler) {
     const float u = sampler.next1();
-    return d_.t_.lights.sample(p.site.origin, u, sampler.next2());
+    return d_.t_.lights.sample(p.sample_point.origin, u, sampler.next2());
   };
-  if (d_.many_punctual_) sample_punctual(any);
+  if (d_.many_punctual_) sample_many_punctual(any);
   if (!d_.t_.lights.frosted().empty()) sample_frosted();
   if (!d_.closed_form_) sample_lights(any);
   if (d_.closed_form_ && d_.t_.lights.samples_sky())
@@ -64,15 +64,15 @@ std::uint64_t DirectGroup::stream_of(std::uint32_t texel, int half) const {
 }
 
 void DirectGroup::add_points(std::uint32_t i) {
-  // What casts sharp shadows sends the same ray from the same point.
+  // With punctual lights a repeated point would repeat the shadow ray.
   const std::uint32_t samples_a_point = d_.t_.accel.scene().lights.empty() ? kSamplesAPoint : 1;
   for (int half = 0; half < kHalves; ++half) {
-    const std::uint32_t kept = d_.sample_points_.cached_count(list_[i], half);
+    const std::uint32_t stored = d_.sample_points_.cached_count(list_[i], half);
     for (std::uint32_t k = 0; k < per_half_; ++k) {
-      const bool again = k > kept && (k - kept) % samples_a_point != 0;
-      const std::uint32_t point = k < kept ? k : kept + (k - kept) / samples_a_point;
-      points_.push_back(
-          {again ? points_.back().site : d_.sample_points_.at(list_[i], half, point, rays_), i, half, k, again});
+      const bool repeats = k > stored && (k - stored) % samples_a_point != 0;
+      const std::uint32_t point = k < stored ? k : stored + (k - stored) / samples_a_point;
+      points_.push_back({repeats ? points_.back().sample_point : d_.sample_points_.at(list_[i], half, point, rays_), i,
+                         half, k, repeats});
     }
   }
 }
@@ -84,119 +84,122 @@ bool DirectGroup::is_usable(const Point& point, const Vec3& light) const {
 }
 
 void DirectGroup::sample_polygon_lights() {
-  const std::uint32_t first = std::min(per_half_, LightPilot::kSamples);
-  std::vector<LightPilot> pilots;
+  const std::uint32_t first = std::min(per_half_, LightCalibration::kSamples);
+  std::vector<LightCalibration> calibrations;
   float most = 0;
   for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
-    aim_at_polygon(l, 0, first, true);
-    pilots.push_back(end_pilot(l));
-    most = std::max(most, pilots.back().noise);
+    sample_polygon(l, 0, first, true);
+    calibrations.push_back(finish_calibration(l));
+    most = std::max(most, calibrations.back().noise);
   }
   for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
-    const LightPilot& pilot = pilots[l];
-    for (std::size_t i = 0; i < tallies_.size(); ++i) static_cast<LightTally&>(tallies_[i]) = pilot.tallies[i];
-    const std::uint32_t samples = per_half_ > first ? samples_of(pilot, most, per_half_) : first;
-    if (samples > first) aim_at_polygon(l, first, samples, !pilot.all);
+    const LightCalibration& calibration = calibrations[l];
+    for (std::size_t i = 0; i < tallies_.size(); ++i) static_cast<LightTally&>(tallies_[i]) = calibration.tallies[i];
+    const std::uint32_t samples = per_half_ > first ? sample_count(calibration, most, per_half_) : first;
+    if (samples > first) sample_polygon(l, first, samples, !calibration.all_visible);
     finish_light(d_.polygons_[l].radiance, scene().light_group(d_.polygons_[l].triangles.front()), 1, samples);
   }
 }
 
-LightPilot DirectGroup::end_pilot(std::uint32_t l) {
+LightCalibration DirectGroup::finish_calibration(std::uint32_t l) {
   trace();
-  LightPilot pilot;
+  LightCalibration calibration;
   bool any = false;
   for (Tally& t : tallies_) {
     for (int half = 0; half < kHalves; ++half) {
-      pilot.all = pilot.all && t.passed[half] == t.weight[half];
-      pilot.none = pilot.none && t.passed[half] == Vec3(0);
-      any = any || t.weight[half] != Vec3(0);
+      calibration.all_visible = calibration.all_visible && t.transmitted[half] == t.proposal_weight[half];
+      calibration.all_occluded = calibration.all_occluded && t.transmitted[half] == Vec3(0);
+      any = any || t.proposal_weight[half] != Vec3(0);
     }
-    // Of so few samples none is sure that it sees all there is: as if half a sample more saw it and half a one not.
-    const float open =
-        luminance(d_.polygons_[l].radiance) * (t.open[0].x + t.open[1].x) / (kHalves * LightPilot::kSamples);
-    const float weight = luminance(t.weight[0] + t.weight[1]), sample = weight / (kHalves * LightPilot::kSamples);
-    const float share = weight > 0 ? (luminance(t.passed[0] + t.passed[1]) + 0.5f * sample) / (weight + sample) : 0;
-    pilot.noise += open * open * share * (1 - share);
-    pilot.tallies.push_back(t);
-    forget_light(t);
+    // With so few samples the visibility is uncertain: one sample is added, half of it visible.
+    const float unoccluded = luminance(d_.polygons_[l].radiance) * (t.unoccluded[0].x + t.unoccluded[1].x) /
+                             (kHalves * LightCalibration::kSamples);
+    const float weight = luminance(t.proposal_weight[0] + t.proposal_weight[1]),
+                sample = weight / (kHalves * LightCalibration::kSamples);
+    const float share =
+        weight > 0 ? (luminance(t.transmitted[0] + t.transmitted[1]) + 0.5f * sample) / (weight + sample) : 0;
+    calibration.noise += unoccluded * unoccluded * share * (1 - share);
+    calibration.tallies.push_back(t);
+    clear_light(t);
   }
-  pilot.none = pilot.none && any;
-  if (pilot.all || pilot.none) pilot.noise = 0;
-  return pilot;
+  calibration.all_occluded = calibration.all_occluded && any;
+  if (calibration.all_visible || calibration.all_occluded) calibration.noise = 0;
+  return calibration;
 }
 
-void DirectGroup::aim_at_polygon(std::uint32_t l, std::uint32_t first, std::uint32_t end, bool shoot_rays) {
+void DirectGroup::sample_polygon(std::uint32_t l, std::uint32_t first, std::uint32_t end, bool trace_rays) {
   const PolygonLight& light = d_.polygons_[l];
   Receiver receiver;
   std::optional<PolygonView> view;
-  float open = 0;
-  std::uint32_t last = ~0u;  // whose site these are of
+  float unoccluded = 0;
+  std::uint32_t last = ~0u;  // index of the point that these belong to
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
     if (point.k < first || point.k >= end) continue;
-    if (!point.again || last + 1 != p) {
-      receiver = point.site.receiver();
-      open = polygon_irradiance(light, receiver);
+    if (!point.repeats || last + 1 != p) {
+      receiver = point.sample_point.receiver();
+      unoccluded = polygon_irradiance(light, receiver);
       view.reset();
     }
     last = p;
-    if (!(open > 0) || !is_usable(point, Vec3(open))) continue;
+    if (!(unoccluded > 0) || !is_usable(point, Vec3(unoccluded))) continue;
     Tally& tally = tallies_[point.texel];
-    tally.open[point.half] += Vec3(open);
-    const bool unseen = tally.weight[0] + tally.weight[1] == Vec3(0);
-    if (!shoot_rays && !unseen) continue;
+    tally.unoccluded[point.half] += Vec3(unoccluded);
+    const bool unseen = tally.proposal_weight[0] + tally.proposal_weight[1] == Vec3(0);
+    if (!trace_rays && !unseen) continue;
     if (!view) view.emplace(light, receiver);
     Sampler sampler(d_.seed_ + seeds::kPolygonLight + l, stream_of(list_[point.texel], point.half), point.k);
-    shoot_at_polygon(*view, receiver, p, sampler);
+    add_polygon_sample(*view, receiver, p, sampler);
   }
 }
 
-void DirectGroup::shoot_at_polygon(const PolygonView& view, const Receiver& receiver, std::uint32_t p,
-                                   Sampler& sampler) {
+void DirectGroup::add_polygon_sample(const PolygonView& view, const Receiver& receiver, std::uint32_t p,
+                                     Sampler& sampler) {
   for (int tries = 0; tries < kTries; ++tries) {
     const auto s = view.sample(sampler.next2());
     const float weight = s ? incidence(receiver, s->direction) * s->solid_angle : 0;
     if (!(weight > 0)) continue;
-    shoot(p, {points_[p].site.origin, s->direction, s->distance, false}, Vec3(weight));
+    add_shadow_ray(p, {points_[p].sample_point.origin, s->direction, s->distance, false}, Vec3(weight));
     return;
   }
 }
 
-void DirectGroup::aim_at_punctual(std::uint32_t l) {
+void DirectGroup::sample_punctual_light(std::uint32_t l) {
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
     Sampler sampler(d_.seed_ + seeds::kSharpLight + l, stream_of(list_[point.texel], point.half), point.k);
-    const LightSample s = d_.t_.lights.sample_light(l, point.site.origin, sampler.next2());
-    const Vec3 value = s.estimate * incidence(point.site.receiver(), s.direction);
+    const LightSample s = d_.t_.lights.sample_light(l, point.sample_point.origin, sampler.next2());
+    const Vec3 value = s.estimate * incidence(point.sample_point.receiver(), s.direction);
     if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
-    tallies_[point.texel].open[point.half] += value;
-    shoot(p, {point.site.origin, s.direction, s.distance, true, false}, value);
+    tallies_[point.texel].unoccluded[point.half] += value;
+    add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, true, false}, value);
   }
 }
 
 std::pair<DVec3, double> DirectGroup::sphere_about_points() const {
-  Vec3 lower = points_.empty() ? Vec3(0) : points_.front().site.origin, upper = lower;
-  for (const Point& p : points_) lower = glm::min(lower, p.site.origin), upper = glm::max(upper, p.site.origin);
+  Vec3 lower = points_.empty() ? Vec3(0) : points_.front().sample_point.origin, upper = lower;
+  for (const Point& p : points_)
+    lower = glm::min(lower, p.sample_point.origin), upper = glm::max(upper, p.sample_point.origin);
   return {0.5 * (DVec3(lower) + DVec3(upper)), 0.5 * double{glm::length(upper - lower)}};
 }
 
-void DirectGroup::aim_at_mirrored(std::uint32_t i) {
+void DirectGroup::sample_mirrored_light(std::uint32_t i) {
   const VirtualLights& mirrored = d_.t_.lights.mirrored();
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
     Sampler sampler(d_.seed_ + seeds::kMirroredLight + i, stream_of(list_[point.texel], point.half), point.k);
-    const MirroredSample s = mirrored.sample(i, d_.t_.lights, point.site.origin, sampler.next2());
-    const Vec3 value = s.endless * incidence(point.site.receiver(), s.direction);
+    const MirroredSample s = mirrored.sample(i, d_.t_.lights, point.sample_point.origin, sampler.next2());
+    const Vec3 value = s.endless * incidence(point.sample_point.receiver(), s.direction);
     if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
-    tallies_[point.texel].open[point.half] += value;
-    tallies_[point.texel].weight[point.half] += value;
+    tallies_[point.texel].unoccluded[point.half] += value;
+    tallies_[point.texel].proposal_weight[point.half] += value;
     if (s.legs == 0) continue;
     rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
-    shots_.push_back({p, value, s.direction, kNoGroup, s.legs, s.share});
+    shadow_rays_.push_back({p, value, s.direction, kNoGroup, s.legs, s.share});
   }
 }
 
-// Light that flat frosted panes spread has neither a closed form nor sharp shadows.
+// Light spread by flat frosted panes is sampled: it has no closed form.
 void DirectGroup::sample_frosted() {
   const FrostedLights& frosted = d_.t_.lights.frosted();
   const auto [centre, radius] = sphere_about_points();
@@ -207,55 +210,57 @@ void DirectGroup::sample_frosted() {
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
       const Point& point = points_[p];
       Sampler sampler(d_.seed_ + seeds::kFrostedLight + pick, stream_of(list_[point.texel], point.half), point.k);
-      frosted.choose(DVec3(point.site.origin), 0, sampler.next1(), [&](std::size_t i, float weight) {
+      frosted.choose(DVec3(point.sample_point.origin), 0, sampler.next1(), [&](std::size_t i, float weight) {
         const Vec2 of_light = sampler.next2();
-        const MirroredSample s = frosted.sample(i, d_.t_.lights, point.site.origin, {of_light, sampler.next2()});
-        const float share = weight * incidence(point.site.receiver(), s.direction) / static_cast<float>(kFrosted);
+        const MirroredSample s =
+            frosted.sample(i, d_.t_.lights, point.sample_point.origin, {of_light, sampler.next2()});
+        const float share =
+            weight * incidence(point.sample_point.receiver(), s.direction) / static_cast<float>(kFrosted);
         const Vec3 value = s.endless * share;
         if (s.legs == 0 || !(max_component(value) > 0) || !is_usable(point, value)) return;
         rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
-        shots_.push_back({p, value, s.direction, s.group, s.legs});
+        shadow_rays_.push_back({p, value, s.direction, s.group, s.legs});
       });
     }
   const auto of_a_day = [](const Light& light) { return light.hour >= 0; };
   finish_sampled(std::ranges::any_of(scene().lights, of_a_day) ? static_cast<float>(scene().day.lit()) : 1.0f);
 }
 
-void DirectGroup::shoot(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group) {
+void DirectGroup::add_shadow_ray(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group) {
   const Point& p = points_[point];
-  tallies_[p.texel].weight[p.half] += weight;
+  tallies_[p.texel].proposal_weight[p.half] += weight;
   if (ray.max_distance > 0) {
     rays_to_trace_.push_back(ray);
-    shots_.push_back({point, weight, ray.direction, group});
+    shadow_rays_.push_back({point, weight, ray.direction, group});
   } else {
-    receive({point, weight, ray.direction, group}, Vec3(1));  // touching
+    add_transmitted({point, weight, ray.direction, group}, Vec3(1));  // touching
   }
 }
 
-void DirectGroup::receive(const Shot& shot, const Vec3& passed) {
-  const Point& p = points_[shot.point];
+void DirectGroup::add_transmitted(const ShadowRay& shadow_ray, const Vec3& transmittance) {
+  const Point& p = points_[shadow_ray.point];
   Tally& tally = tallies_[p.texel];
-  const Vec3 light = shot.weight * shot.share * passed;
-  tally.passed[p.half] += light;
-  if (grouped_.groups > 0 && shot.group != kNoGroup)
-    each_owner(scene(), shot.group, shot.direction, light,
-               [&](std::uint32_t group, const Vec3& part) { grouped_passed_[p.half].of(p.texel)[group] += part; });
+  const Vec3 light = shadow_ray.weight * shadow_ray.share * transmittance;
+  tally.transmitted[p.half] += light;
+  if (grouped_.groups > 0 && shadow_ray.group != kNoGroup)
+    each_owner(scene(), shadow_ray.group, shadow_ray.direction, light,
+               [&](std::uint32_t group, const Vec3& part) { grouped_transmitted_[p.half].of(p.texel)[group] += part; });
   if (!directional_) return;
-  const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
-  tally.from += moments_of(luminance(light) / cosine, shot.direction);
+  const float cosine = std::max(incidence(p.sample_point.receiver(), shadow_ray.direction), 1e-6f);
+  tally.transmitted_moments += moments_of(luminance(light) / cosine, shadow_ray.direction);
 }
 
 void DirectGroup::trace() {
-  passed_.resize(rays_to_trace_.size());
-  d_.t_.accel.transmittance(rays_to_trace_, passed_);
+  transmittances_.resize(rays_to_trace_.size());
+  d_.t_.accel.transmittance(rays_to_trace_, transmittances_);
   rays_ += rays_to_trace_.size();
-  auto leg = passed_.begin();
-  for (const Shot& shot : shots_) {
-    Vec3 passed(1);
-    for (int k = 0; k < shot.legs; ++k) passed *= *leg++;
-    receive(shot, passed);
+  auto segment = transmittances_.begin();
+  for (const ShadowRay& shadow_ray : shadow_rays_) {
+    Vec3 transmittance(1);
+    for (int k = 0; k < shadow_ray.segments; ++k) transmittance *= *segment++;
+    add_transmitted(shadow_ray, transmittance);
   }
-  shots_.clear();
+  shadow_rays_.clear();
   rays_to_trace_.clear();
 }
 
@@ -264,30 +269,32 @@ void DirectGroup::finish_light(const Vec3& radiance, std::uint32_t group, float 
   const auto n = static_cast<float>(kHalves * per_half);
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     Tally& t = tallies_[i];
-    const Vec3 share = ratio(t.passed[0] + t.passed[1], t.weight[0] + t.weight[1]);
+    const Vec3 share = ratio(t.transmitted[0] + t.transmitted[1], t.proposal_weight[0] + t.proposal_weight[1]);
     const auto own = [&](int half) {
-      return max_component(t.weight[half]) > 0 ? ratio(t.passed[half], t.weight[half]) : share;
+      return max_component(t.proposal_weight[half]) > 0 ? ratio(t.transmitted[half], t.proposal_weight[half]) : share;
     };
     const std::array<Vec3, kHalves> of_half{own(0), own(1)};
     const Vec3 halves = 0.5f * (of_half[0] + of_half[1]);
-    const Vec3 open = radiance * (t.open[0] + t.open[1]) / n;
-    const Vec3 value = open * (2.0f * share - halves);
+    const Vec3 unoccluded = radiance * (t.unoccluded[0] + t.unoccluded[1]) / n;
+    const Vec3 value = unoccluded * (2.0f * share - halves);
     t.total += value;
     add_moments(t, value);
-    // A mix of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
-    t.variance += hours * open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
-    // The closed form is exact at a point; the texel's mean is had from a few.
-    t.uneven += std::sqrt(hours) * radiance * share * (t.open[0] - t.open[1]) / static_cast<float>(per_half);
-    const Vec3 difference = radiance * (t.open[0] * of_half[0] - t.open[1] * of_half[1]) / static_cast<float>(per_half);
+    // Bernoulli variance of visibility, which falls as n^-1.5 for stratified points on a discontinuity.
+    t.variance += hours * unoccluded * unoccluded * share * (Vec3(1) - share) / std::pow(n, 1.5f);
+    // The closed form is exact at a point; the mean over the texel is estimated from a few points.
+    t.uneven +=
+        std::sqrt(hours) * radiance * share * (t.unoccluded[0] - t.unoccluded[1]) / static_cast<float>(per_half);
+    const Vec3 difference =
+        radiance * (t.unoccluded[0] * of_half[0] - t.unoccluded[1] * of_half[1]) / static_cast<float>(per_half);
     t.difference += difference;
     if (!grouped_.empty()) grouped_.of(i)[group] += value, grouped_difference_.of(i)[group] += difference;
-    forget_light(t);
+    clear_light(t);
   }
 }
 
 void DirectGroup::add_moments(Tally& t, const Vec3& value) {
-  const float seen = luminance(t.passed[0] + t.passed[1]);
-  if (seen > 0) t.moments += t.from * (std::max(0.0f, luminance(value)) / seen);
+  const float seen = luminance(t.transmitted[0] + t.transmitted[1]);
+  if (seen > 0) t.moments += t.transmitted_moments * (std::max(0.0f, luminance(value)) / seen);
 }
 
 template <class Sample>
@@ -296,11 +303,11 @@ void DirectGroup::sample_lights(const Sample& sample) {
     const Point& point = points_[p];
     Sampler sampler(d_.seed_ + seeds::kSky, stream_of(list_[point.texel], point.half), point.k);
     const LightSample s = sample(point, sampler);
-    if (s.pdf == 0) continue;  // nothing, or punctual: those are done light by light
-    const float cosine = incidence(point.site.receiver(), s.direction);
+    if (s.pdf == 0) continue;  // no light, or a punctual one, which is sampled elsewhere
+    const float cosine = incidence(point.sample_point.receiver(), s.direction);
     const Vec3 value = s.estimate * (cosine * s.pdf / (s.pdf + cosine / kPi));
     if (max_component(value) > 0 && is_usable(point, value))
-      shoot(p, {point.site.origin, s.direction, s.distance, false}, value, s.group);
+      add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, false}, value, s.group);
   }
   finish_sampled();
 }
@@ -309,32 +316,33 @@ void DirectGroup::finish_sampled(float hours) {
   trace();
   const auto n = static_cast<float>(per_half_);
   for (Tally& t : tallies_) {
-    const Vec3 value = (t.passed[0] + t.passed[1]) / (kHalves * n);
+    const Vec3 value = (t.transmitted[0] + t.transmitted[1]) / (kHalves * n);
     t.total += value;
     add_moments(t, value);
-    const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
+    const Vec3 difference = (t.transmitted[0] - t.transmitted[1]) / n;
     t.variance += 0.25f * hours * difference * difference;
     t.difference += difference;
-    forget_light(t);
+    clear_light(t);
   }
   for (int h = 0; h < kHalves; ++h) {
-    grouped_.add(grouped_passed_[h], 1 / (kHalves * n));
-    grouped_difference_.add(grouped_passed_[h], (h == 0 ? 1 : -1) / n);
-    std::ranges::fill(grouped_passed_[h].light, Vec3(0));
+    grouped_.add(grouped_transmitted_[h], 1 / (kHalves * n));
+    grouped_difference_.add(grouped_transmitted_[h], (h == 0 ? 1 : -1) / n);
+    std::ranges::fill(grouped_transmitted_[h].light, Vec3(0));
   }
 }
 
 template <class Sample>
-void DirectGroup::sample_punctual(const Sample& sample) {
+void DirectGroup::sample_many_punctual(const Sample& sample) {
   for (std::uint64_t pick = 0; pick < kPicks; ++pick)
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
       const Point& point = points_[p];
       Sampler sampler(d_.seed_ + seeds::kManyLights + pick, stream_of(list_[point.texel], point.half), point.k);
       const LightSample s = sample(point, sampler);
       if (s.pdf > 0) continue;  // an emissive surface, or the sky
-      const Vec3 value = s.estimate * (incidence(point.site.receiver(), s.direction) / static_cast<float>(kPicks));
+      const Vec3 value =
+          s.estimate * (incidence(point.sample_point.receiver(), s.direction) / static_cast<float>(kPicks));
       if (max_component(value) > 0 && is_usable(point, value))
-        shoot(p, {point.site.origin, s.direction, s.distance, true, false}, value, s.group);
+        add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, true, false}, value, s.group);
     }
   finish_sampled();
 }

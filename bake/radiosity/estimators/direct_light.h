@@ -1,4 +1,4 @@
-// Direct light of polygon lights and punctual lights per texel: closed forms times sampled visibility.
+// Direct light of texels: closed-form irradiance times sampled visibility.
 #pragma once
 
 #include "bake/radiosity/texels/extra_sample_points.h"
@@ -7,15 +7,15 @@
 
 namespace oriel {
 
-// What the direct estimate of a texel knows. Lux.
+// The direct-light estimate by texel, lux; variances in lux².
 struct DirectSums {
   std::vector<Vec3> value;
-  std::vector<Vec3> difference;  // of its halves, which share neither points nor rays
-  std::vector<Vec3> variance;    // of value: closed forms by their mix of lit and dark samples, the rest by halves
-  std::vector<Vec3> uneven;      // of the closed forms' means over the texel, likewise from one difference
-  std::vector<std::uint32_t> per_half;       // samples of each half for each light
-  std::vector<Vec4> moments;                 // of luminance over the sphere (moments.h); empty unless asked for
-  GroupedLight grouped, grouped_difference;  // of value and difference, by group of lamps
+  std::vector<Vec3> difference;         // half 0 minus half 1, which are independent
+  std::vector<Vec3> variance;           // noise of value: closed forms by their visibility samples, the rest by halves
+  std::vector<Vec3> uneven;             // variance of the closed forms' mean over the texel, by halves
+  std::vector<std::uint32_t> per_half;  // samples of each half and light
+  std::vector<Vec4> moments;            // of luminance over the sphere (moments.h); empty unless directional
+  GroupedLight grouped, grouped_difference;  // value and difference by light group
 
   DirectSums(std::size_t texels, bool directional, std::size_t groups = 0)
       : value(texels),
@@ -27,7 +27,7 @@ struct DirectSums {
         grouped(texels, groups),
         grouped_difference(texels, groups) {}
 
-  // Of the halves' light by group.
+  // Both halves by light group.
   std::array<GroupedLight, kHalves> grouped_halves() const {
     std::array<GroupedLight, kHalves> halves{grouped, grouped};
     halves[0].add(grouped_difference, 0.5f), halves[1].add(grouped_difference, -0.5f);
@@ -42,9 +42,11 @@ struct DirectSums {
   }
 };
 
-// Keeps those of the list whose direct light, or a neighbour's, is uncertain by more than that share of it, and those
-// in whose wide surroundings (typical_errors) it is by a tenth. Where few samples meet a light, as the sky through a
-// window, texels that were asked again because one did would come down to the truth and the others stay dark.
+// Removes texels with a reliable estimate from the list. Those stay whose direct light, or a neighbour's, has a
+// relative error above `share`, and those in whose wide neighbourhood (typical_errors) it is above a tenth. The latter
+// avoids a
+// bias: where few samples hit a light, as the sky through a window, only texels with a lucky hit would be refined, and
+// would become darker, while the others stayed dark.
 void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
                     std::vector<std::uint32_t>& list);
 
@@ -53,15 +55,16 @@ class DirectLight {
   DirectLight(const Transport& transport, const Texels& texels, const ExtraSamplePoints& sample_points,
               std::uint64_t seed);
 
-  // True where every emitting surface has a closed form; false: surfaces are left to sampling (textured emitters, more
-  // polygons than it pays to visit one by one), see LightSet.
+  // True if every emitting surface has a closed form. False: surfaces are left to light sampling (LightSet), because of
+  // textured emitters, or of too many polygons to visit one by one.
   bool closed_form() const { return closed_form_; }
-  // Some light is found by chance: emitters without closed forms, the sky, many punctual lights.
+  // True if some lights are chosen randomly: emitters without closed forms, the sky, many punctual lights, frosted
+  // panes.
   bool samples_lights() const {
     return !closed_form_ || t_.lights.samples_sky() || many_punctual_ || !t_.lights.frosted().empty();
   }
 
-  // Estimates the listed texels anew with so many samples a half and light. Error kStopped.
+  // Estimates the listed texels again with `per_half` samples a half and light. Error kStopped.
   Status estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, const Stage& stage,
                   DirectSums& sums) const;
 

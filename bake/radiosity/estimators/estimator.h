@@ -1,4 +1,4 @@
-// What estimates the light on an atlas' texels: bake_radiosity refines it until the error asked for holds.
+// The interface of light estimators, which bake_radiosity refines until the error is as requested.
 #pragma once
 
 #include <algorithm>
@@ -14,28 +14,28 @@
 
 namespace oriel {
 
-// What one bake of a lightmap is about. All of it outlives the estimator.
+// The inputs of one lightmap bake. All of them must outlive the estimator.
 struct RadiosityTask : LightmapScene {
-  std::span<const FramePixel> pixels;  // by which the error is told (texels/frame_error.h)
+  std::span<const FramePixel> pixels;  // that measure the error (texels/frame_error.h)
   const RadiosityOptions& options;
   Context& context;
-  Stage paths;  // whose rays have been counted so far,
-  Stage quick;  // and those towards lights and by probes of points
+  Stage paths;  // counts path rays
+  Stage quick;  // counts shadow rays and probe rays
 
-  // Rays of paths that take about the time of all: measured, two and a half to four quick ones do.
+  // The cost so far, in path rays: two and a half to four shadow or probe rays take the time of one, as measured.
   std::uint64_t work() const { return paths.traced() + quick.traced() / kQuickRays; }
   static constexpr std::uint64_t kQuickRays = 3;
-  // At which refinement ends (RadiosityOptions::most_rays); may be infinite.
+  // The cost at which refinement ends (RadiosityOptions::most_rays); may be infinite.
   double most_work(std::size_t texels) const {
     if (options.most_rays == 0) return HUGE_VAL;
     return static_cast<double>(std::max(options.most_rays, kMostTexelMean * texels));
   }
 };
 
-// What an estimate is refined to.
+// The target of a refinement.
 struct Goal {
-  double error = 0;             // of frames, relative; 0: all samples are taken
-  bool longer_look_up = false;  // cached: rays look texels up from four times as far away, and follow paths till then
+  double error = 0;           // of frames, relative; 0: take all samples
+  bool longer_paths = false;  // cached: a four times larger minimum distance of cache look-ups
 };
 
 // Pages of the texel map's sizes, without light.
@@ -46,30 +46,30 @@ class CacheQuery;
 struct CachedLight;
 struct Estimate;
 
-// What an estimator knows of the texels beside their light.
+// An estimator's data by texel, for light between the texels.
 struct TexelLight {
   const Texels& texels;
   const CacheQuery& query;
   const CachedLight& cached;
-  std::vector<Vec3> beside;           // by texel: light that no gather ray looks for, lux; empty: none
-  GroupedLight additional_grouped;    // the same by group of lamps, if asked
-  const Estimate& reflected;          // by texel: light that surfaces reflect to it, as it is shown, `beside` in it
-  GroupedLight reflected_grouped;     // the same by group of lamps, if asked
-  std::span<const float> importance;  // of frames, by texel
+  std::vector<Vec3> additional;       // by texel: light that gather rays leave out, lux; empty: none
+  GroupedLight additional_grouped;    // the same by light group; may be empty
+  const Estimate& reflected;          // by texel: filtered reflected light, `additional` included
+  GroupedLight reflected_grouped;     // the same by light group; may be empty
+  std::span<const float> importance;  // by texel: fraction of the frame pixels
 };
 
 class LightEstimator {
  public:
   virtual ~LightEstimator() = default;
-  // Until the goal holds, all samples are taken, or RadiosityOptions::enough. Error kStopped.
+  // Refines until the goal is reached, all samples are taken, or RadiosityOptions::enough. Error kStopped.
   virtual Status refine(const Goal& goal) = 0;
-  // The estimate as it stands: each covered texel's light, standard error and state, its visible share, and the
-  // report's numbers of the estimate. `light` is an empty_radiosity().
+  // Writes the estimate as it stands: light, standard error, state and visible fraction of each covered texel, and the
+  // report's fields. `light` is an empty_radiosity().
   virtual void write(Radiosity& light) const = 0;
-  // The same light by group of lamps, and so of valid texels alone; false: it does not tell whose light it is.
-  // `groups`: of each group pages of the texel map's sizes without light.
+  // Writes the light of valid texels by light group. groups: by group, empty pages of the texel map's sizes. False: the
+  // estimator does not separate groups.
   virtual bool write_groups(std::vector<std::vector<LightmapPage>>&) const { return false; }
-  // What light between the texels can be found from (detail.h); nothing where all there is is theirs.
+  // Data for finding light between the texels (detail.h); nothing from estimators that cannot.
   virtual std::optional<TexelLight> texel_light() const { return std::nullopt; }
 };
 

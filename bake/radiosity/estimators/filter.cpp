@@ -6,8 +6,8 @@
 namespace oriel {
 namespace {
 
-constexpr int kPoolPasses = 4, kWidePasses = 16, kAroundPasses = 4;
-// Each scale spreads light for so long, which makes the kernel of all up to it twice as wide as that before.
+constexpr int kPoolPasses = 4, kWidePasses = 16, kNeighbourPasses = 4;
+// Diffusion times of the scales: each scale doubles the width of the kernel so far.
 constexpr float kNarrow = 2, kByChance = 4;
 constexpr float kFirstScale = 6, kNextScale = 4, kPooledOver = 4;
 
@@ -20,30 +20,30 @@ double total(const Texels& texels, const std::vector<Vec3>& values) {
 
 using TwoHalves = std::array<std::vector<Vec3>, kHalves>;
 
-// Of the noise of a texel after one pass of pooled(): its own share and that of so many neighbours, squared. At the end
-// of a surface, where there are few, most of it is left.
-float left_of_noise(std::size_t neighbours) {
+// The fraction of a texel's variance left after one pass of pooled(). At the end of a surface, with few neighbours,
+// most of it is left.
+float remaining_noise(std::size_t neighbours) {
   constexpr float kShare = 1.0f / (kMaxNeighbours + 1);
   const auto n = static_cast<float>(neighbours);
   const float own = 1 - n * kShare;
   return own * own + n * kShare * kShare;
 }
 
-// By texel, 1 over its light squared (dark ones: 1 % of the mean), so that what is pooled counts alike in the dark.
-std::vector<float> relative_to(const Texels& texels, const std::vector<Vec3>& light, const std::vector<Vec3>& beside) {
-  const float floor = 0.01f * mean_luminance(texels, light, beside);
+// Per texel, 1 over its squared light (at least 1 % of the mean), for relative errors.
+std::vector<float> relative_to(const Texels& texels, const std::vector<Vec3>& light,
+                               const std::vector<Vec3>& additional) {
+  const float floor = 0.01f * mean_luminance(texels, light, additional);
   std::vector<float> weight(light.size());
   for (std::size_t i = 0; i < light.size(); ++i) {
-    const float l = luminance(light[i] + beside[i]);
+    const float l = luminance(light[i] + additional[i]);
     weight[i] = 1 / (l * l + floor * floor + 1e-30f);
   }
   return weight;
 }
 
-// By texel, in [0,1]: how much of the change Δ that further smoothing brings takes noise away, rather than light that
-// is there. What both halves change alike is light, <Δ_0 Δ_1>, <> being a mean over surroundings; by what they change
-// differently, <(Δ_0 - Δ_1)²> / 4, the mean of both has less noise. The least error is where the second's share of all
-// is (Wiener 1949).
+// Per texel, [0,1]: the fraction of the change Δ by further smoothing that minimises the error (Wiener 1949). <> is a
+// mean over the neighbourhood. The common change of both halves, <Δ_0 Δ_1>, is signal; their different change, <(Δ_0 -
+// Δ_1)²> / 4, is noise removed from the mean of both. The optimum is the second over the sum.
 std::vector<float> wanted(const Conductor& over, const TwoHalves& change, const std::vector<float>& weight, float time,
                           Context& context) {
   std::vector<Vec2> sums(weight.size());
@@ -62,8 +62,7 @@ std::vector<float> wanted(const Conductor& over, const TwoHalves& change, const 
   return share;
 }
 
-// What flows into each texel, an edge's flow times the lesser share of its two texels: nobody takes light from somebody
-// who does not want that, and none is lost.
+// The flow into each texel: an edge's flow times the smaller `share` of its two texels, which conserves light.
 std::vector<Vec3> gain(const Flow& flow, const TexelGraph& graph, const std::vector<float>& share, Context& context) {
   std::vector<Vec3> sum(share.size());
   each_texel(context, share.size(), [&](std::size_t i) {
@@ -73,7 +72,7 @@ std::vector<Vec3> gain(const Flow& flow, const TexelGraph& graph, const std::vec
   return sum;
 }
 
-// Smooths both halves on scale after scale, each only where that takes noise away.
+// Smooths both halves on scale after scale, each only where that removes noise.
 void smooth_by_scales(const Conductor& over, const std::vector<float>& weight, int scales, TwoHalves& halves,
                       Context& context) {
   const std::vector<float> all(weight.size(), 1.0f);
@@ -93,24 +92,24 @@ void smooth_by_scales(const Conductor& over, const std::vector<float>& weight, i
   }
 }
 
-// What a texel has beside the light around: a slope is no edge, however steep it is. Told apart by their light itself,
-// texels along a slope joined those on their own level alone, and noise became contour lines.
-std::vector<Vec3> beside_slopes(const TexelGraph& graph, std::vector<Vec3> light, Context& context) {
-  const std::vector<Vec3> around = pooled(graph, light, kAroundPasses, context);
-  for (std::size_t i = 0; i < light.size(); ++i) light[i] -= around[i];
+// The deviation of a texel's light from its neighbourhood, so that a slope is no edge, however steep. With the light
+// itself as guide, texels on a slope joined only those on their own level, and noise became contour lines.
+std::vector<Vec3> deviation_from_neighbours(const TexelGraph& graph, std::vector<Vec3> light, Context& context) {
+  const std::vector<Vec3> neighbourhood = pooled(graph, light, kNeighbourPasses, context);
+  for (std::size_t i = 0; i < light.size(); ++i) light[i] -= neighbourhood[i];
   return light;
 }
 
-// Texels are no points: what rays find within one is taken as linear, and what that changed against its mean tells how
-// much may be left. The halves' product has no noise of its own.
-Vec3 left_by_slopes(const HalfSums& sums, std::size_t i) {
+// The squared error of linear light within the texels hit, as a fraction of the change by their slopes. The product of
+// the halves has no noise bias.
+Vec3 slope_error(const HalfSums& sums, std::size_t i) {
   constexpr float kLeft = 0.5f;  // of the change
   const float n = static_cast<float>(std::max(1u, sums.samples[i]));
   return (kLeft * kLeft / (n * n)) * sums.slope[0][i] * sums.slope[1][i];
 }
 
-// By texel, of the squared error of both halves' mean, less their noise: error(F_a) = E|F_a - b|² - noise(b) = bias² +
-// noise(F_a); the mean of both has bias² + noise(F_a) / 2. To be pooled.
+// Per texel, the squared error of the mean of both halves: error(F_a) = E|F_a - b|² - noise(b) = bias² + noise(F_a);
+// the mean of both has bias² + noise(F_a) / 2. To be pooled.
 std::vector<Vec3> beyond_noise(const TwoHalves& half, const TwoHalves& smooth, Context& context) {
   std::vector<Vec3> beyond(half[0].size());
   each_texel(context, beyond.size(), [&](std::size_t i) {
@@ -130,11 +129,11 @@ Halves halves_of(const HalfSums& sums, Context& context) {
   const std::size_t n = sums.samples.size();
   Halves halves;
   for (auto& light : halves.light) light.resize(n);
-  halves.common.resize(n), halves.beside.resize(n);
+  halves.common.resize(n), halves.additional.resize(n);
   halves.steps = false;
   each_texel(context, n, [&](std::size_t i) {
     for (int h = 0; h < kHalves; ++h) halves.light[h][i] = sums.half(h, i);
-    halves.common[i] = left_by_slopes(sums, i);
+    halves.common[i] = slope_error(sums, i);
   });
   return halves;
 }
@@ -173,14 +172,14 @@ std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, s
     for (std::size_t i = 0; i < near.size(); ++i) near[i] = 0.5f * (near[i] + wide[i]);
     return near;
   };
-  const auto crowded = [&](std::size_t i, std::size_t j) {
+  const auto both_occluded = [&](std::size_t i, std::size_t j) {
     return texels.occlusion_heavy[i] && texels.occlusion_heavy[j];
   };
   std::vector<Vec3> of_all = spread([](std::size_t, std::size_t) { return true; });
-  // What is close to a surface is met by paths: more noise than beside it.
-  const std::vector<Vec3> of_crowded = spread(crowded);
+  // Paths start from hits close to an occluder, with more noise than elsewhere.
+  const std::vector<Vec3> of_occluded = spread(both_occluded);
   for (std::size_t i = 0; i < squares.size(); ++i)
-    squares[i] = texels.occlusion_heavy[i] ? glm::max(of_all[i], of_crowded[i]) : of_all[i];
+    squares[i] = texels.occlusion_heavy[i] ? glm::max(of_all[i], of_occluded[i]) : of_all[i];
   each_texel(context, squares.size(), [&](std::size_t i) { squares[i] *= scale(i); });
   return squares;
 }
@@ -203,10 +202,10 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
     noise[i] = 0.5f * d * d;  // variance of one half
   });
   const auto pool = [&](std::vector<Vec3> squares, std::vector<Vec3> light) {
-    for (std::size_t i = 0; i < n; ++i) light[i] += halves.beside[i];
+    for (std::size_t i = 0; i < n; ++i) light[i] += halves.additional[i];
     return pooled_errors(texels, graph, std::move(squares), light, context);
   };
-  // The guide is itself smoothed a little, so that its noise does not choose whom to join.
+  // The guide is smoothed a little, so that its noise does not decide on edges.
   std::vector<Vec3> guide = pooled(graph, mean, 1, context);
   std::vector<Vec3> raw_variance = pool(noise, mean);
   noise = pool(std::move(noise), guide);
@@ -220,13 +219,13 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
     return result;
   }
   std::vector<Vec3> guide_variance = noise;
-  for (std::size_t i = 0; i < n; ++i) guide_variance[i] *= 0.5f * 3 * left_of_noise(graph.of(i).size());
+  for (std::size_t i = 0; i < n; ++i) guide_variance[i] *= 0.5f * 3 * remaining_noise(graph.of(i).size());
   for (Vec3& v : raw_variance) v *= 0.5f;
-  const std::vector<Vec3> apart = halves.steps ? guide : beside_slopes(graph, guide, context);
+  const std::vector<Vec3> apart = halves.steps ? guide : deviation_from_neighbours(graph, guide, context);
   const Conductance edges = conductances(texels, graph, {apart, guide_variance, options.strength},
                                          {mean, raw_variance, 1, halves.steps}, context);
   TwoHalves smooth = half;
-  smooth_by_scales({graph, edges}, relative_to(texels, guide, halves.beside), options.scales, smooth, context);
+  smooth_by_scales({graph, edges}, relative_to(texels, guide, halves.additional), options.scales, smooth, context);
   each_texel(context, n, [&](std::size_t i) { guide[i] = 0.5f * (smooth[0][i] + smooth[1][i]); });
   std::vector<Vec3>& of_both = guide_variance;  // noise of the mean of both
   each_texel(context, n, [&](std::size_t i) {
@@ -237,7 +236,7 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
 
   result.value = std::move(guide), result.variance.resize(n);
   std::vector<Vec3> beyond = beyond_noise(half, smooth, context);
-  // Relative to the light that the filter leaves, as the error asked for is.
+  // Errors are relative to the filtered light, as the requested error is.
   beyond = pool(std::move(beyond), result.value);
   each_texel(context, n, [&](std::size_t i) {
     result.variance[i] = glm::max(beyond[i], of_both[i]);

@@ -27,7 +27,7 @@ GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const 
     if (sums.direct.grouped.is_dark(g)) continue;
     const Halves own{{halves[0].of_group(g), halves[1].of_group(g)}, none, out.of_group(g)};
     std::vector<Vec3> sum = filter(texels, graph, own, narrow(options), context).value;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own.beside[i];
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own.additional[i];
     out.set_group(g, sum);
   }
   return out;
@@ -49,7 +49,7 @@ double noise_of_hours(const CacheQuery& query, std::span<const float> importance
   const std::size_t groups = gathered[0].groups;
   Noise all;
   std::vector<Noise> each(groups);
-  const auto look_at = [&](std::size_t i) {
+  const auto load_texel = [&](std::size_t i) {
     all.light = all.difference = 0;
     for (std::size_t g = 0; g < groups; ++g) {
       const double a = luminance(gathered[0].of(i)[g]), b = luminance(gathered[1].of(i)[g]);
@@ -60,7 +60,7 @@ double noise_of_hours(const CacheQuery& query, std::span<const float> importance
   for (const bool means : {true, false})
     for (std::size_t i = 0; i < importance.size(); ++i) {
       if (!(importance[i] > 0)) continue;
-      look_at(i);
+      load_texel(i);
       means ? all.add_to_mean(importance[i]) : all.add(importance[i]);
       for (Noise& one : each) means ? one.add_to_mean(importance[i]) : one.add(importance[i]);
     }

@@ -1,4 +1,4 @@
-// Smoothing of the light of groups of lamps.
+// Smoothing of light by light group.
 #pragma once
 
 #include "bake/radiosity/estimators/direct_light.h"
@@ -8,28 +8,28 @@
 
 namespace oriel {
 
-// Two estimates of the light of each group, as Halves.
+// Two independent estimates of each group's light, as in Halves.
 struct GroupHalves {
   std::array<GroupedLight, kHalves> light;
   bool steps = true;
 };
-// Filters each group's light by its own halves, as if its lamps shone alone: beside brighter light, what is noise of a
-// faint group and what is its light would be told by the other's. The groups do not sum to the filtered light of all
-// any more; rescale_groups() sees to that.
+// Filters each group's light by its own halves, as if only its lamps were lit: next to brighter light, the other light
+// would decide what is noise in a faint group. The groups then do not sum to the filtered light of all any more, which
+// rescale_groups() corrects.
 GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const GroupHalves& halves,
                            const FilterOptions& options, Context& context);
 struct LightSums {
   const DirectSums& direct;
   const HalfSums& gathered;
 };
-// Direct and gathered light of each group, filtered so and added up; direct light beside what the group gathers, as
-// that of all is.
+// Filters direct and gathered light of each group in that way, and returns the sum. Errors of direct light are relative
+// to the sum.
 GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const LightSums& sums,
                            const FilterOptions& options, Context& context);
 
-// Hours of the scene's day are seen one at a time. How much noisier gathered light of theirs is than that of all,
-// relative to all that the hour or they have, by what the halves differ by before the filter: root mean squares over
-// texels by their share of frames, and over hours; 1 at least, and without a day.
+// The noise of gathered light in a single hour over that of all light, both relative to the light shown: hours of a day
+// are shown one at a time. It is measured by the unfiltered halves, as root mean squares over texels, weighted by
+// importance, and over hours. At least 1; 1 without a day.
 double noise_of_hours(const CacheQuery& query, std::span<const float> importance, const LightSums& sums);
 
 }  // namespace oriel

@@ -7,7 +7,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint64_t kLeast = 1u << 13, kFirstATexel = 8, kMostATexel = 512, kRaysAParticle = 8;
-constexpr double kCost = 3;  // of a particle, in rays: two, which no other is coherent with
+constexpr double kCost = 3;  // of a particle, in rays: it traces two incoherent ones
 
 double total_square(const FrameError& frames, std::span<const Vec3> light, std::span<const Vec3> variance) {
   const std::vector<float> squares = frames.squares(light, variance);
@@ -22,9 +22,9 @@ std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& option
   return std::max(kLeast, of_both / kHalves);
 }
 
-void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums& sums) {
+void set_additional(const LampLight& lamps, const std::vector<bool>& fixed, HalfSums& sums) {
   for (std::size_t i = 0; i < sums.samples.size(); ++i) {
-    if (keep[i]) continue;
+    if (fixed[i]) continue;
     for (int h = 0; h < kHalves; ++h) sums.additional[h][i] = lamps.half(h, i);
     if (!sums.additional_moments.empty())
       sums.additional_moments[i] = lamps.moments[i] / static_cast<float>(kHalves * lamps.particles);
@@ -34,11 +34,11 @@ void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums&
   }
 }
 
-LightBeside smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph, const HalfSums& sums,
-                          Context& context) {
+AdditionalLight smooth_additional(const LampLight& lamps, const Texels& texels, const TexelGraph& graph,
+                                  const HalfSums& sums, Context& context) {
   if (lamps.particles == 0) return {};
   Halves halves{sums.additional, std::vector<Vec3>(texels.count()), std::vector<Vec3>(texels.count())};
-  for (std::size_t i = 0; i < texels.count(); ++i) halves.beside[i] = sums.mean(i);
+  for (std::size_t i = 0; i < texels.count(); ++i) halves.additional[i] = sums.mean(i);
   return {filter(texels, graph, halves, {.scales = 1}, context).value,
           filter_groups(texels, graph, GroupHalves{sums.additional_grouped}, {.scales = 1}, context)};
 }

@@ -1,4 +1,4 @@
-// How many particles lamps send, beside the rays of the gather.
+// The number of light-tracing particles, balanced against gather rays.
 #pragma once
 
 #include "bake/radiosity/estimators/group_filter.h"
@@ -9,23 +9,23 @@
 
 namespace oriel {
 
-// Of each half, to begin with: eight a texel; where the rays of texels are given, one for every eight of these.
+// The initial number of particles per half: eight a texel; with a fixed number of gather rays, one for every eight.
 std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& options);
 
-// Fills HalfSums::beside, but of texels that keep theirs.
-void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums& sums);
+// Sets HalfSums::additional from the particles, except for texels in `fixed`, which keep theirs.
+void set_additional(const LampLight& lamps, const std::vector<bool>& fixed, HalfSums& sums);
 
-// What put_beside put there, filtered by itself: what ends at a shadow's edge does not reach under a bench. Empty where
-// no particle was followed.
-struct LightBeside {
-  std::vector<Vec3> light;  // HalfSums::beside
+// Light by particles, filtered apart from gathered light: caustics have edges where gathered light has none. Empty
+// without particles.
+struct AdditionalLight {
+  std::vector<Vec3> light;  // HalfSums::additional, lux
   GroupedLight grouped;     // HalfSums::additional_grouped
 };
-LightBeside smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph, const HalfSums& sums,
-                          Context& context);
+AdditionalLight smooth_additional(const LampLight& lamps, const Texels& texels, const TexelGraph& graph,
+                                  const HalfSums& sums, Context& context);
 
-// Whether twice as many particles take more of the squared error of frames away, for what they cost, than twice as many
-// rays: by the noise of both before the filter, which both share. light: of texels, lux.
+// True if doubling the particles reduces the squared error of frames by more per cost than doubling the rays does,
+// judged by the unfiltered noise of both. light: of texels, lux.
 bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const Vec3> light, const FrameError& frames);
 
 }  // namespace oriel

@@ -32,13 +32,13 @@ LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& 
     noise_[k] = luminance(points.light.variance[point]);
     own_[k] = 1;
   }
-  known_ = own_;
+  has_value_ = own_;
   if (points.whole != nullptr)
     fill_from(*points.whole, page, levels, [&](std::uint32_t x, std::uint32_t y) {
       return points.light.texels.at(page_number, static_cast<int>(x), static_cast<int>(y)) != kNoTexel;
     });
-  leave_noise();
-  leave_dots();
+  remove_noise();
+  remove_outliers();
   for (std::uint32_t pass = 0; pass <= side_ && spread(); ++pass) {
   }
 }
@@ -95,7 +95,7 @@ Vec3 LevelGrid::between(std::uint32_t x, std::uint32_t y, const Vec2& within) co
                   glm::mix(this->at(x, y, i.x, i.y + 1), this->at(x, y, i.x + 1, i.y + 1), f.x), f.y);
 }
 
-// Points that were not asked for: light does not bend between those of the whole grid around them.
+// Fills points that were not lit from the coarser whole grid, whose points around them hardly differ.
 void LevelGrid::fill_from(const LevelGrid& whole, const LightmapPage& page, const std::vector<std::uint8_t>& levels,
                           const std::function<bool(std::uint32_t x, std::uint32_t y)>& is_lit) {
   for (std::uint32_t place = 0; place < levels.size(); ++place) {
@@ -104,8 +104,8 @@ void LevelGrid::fill_from(const LevelGrid& whole, const LightmapPage& page, cons
     for (std::uint32_t j = 0; j <= side_; ++j)
       for (std::uint32_t i = 0; i <= side_; ++i) {
         const std::size_t k = find(number(x, y, i, j));
-        if (known_[k] || is_lit(DetailPoints::fine(x, i, side_), DetailPoints::fine(y, j, side_))) continue;
-        change_[k] = whole.between(x, y, Vec2(i, j) / static_cast<float>(side_)), known_[k] = 1;
+        if (has_value_[k] || is_lit(DetailPoints::fine(x, i, side_), DetailPoints::fine(y, j, side_))) continue;
+        change_[k] = whole.between(x, y, Vec2(i, j) / static_cast<float>(side_)), has_value_[k] = 1;
       }
   }
 }
@@ -117,16 +117,16 @@ std::size_t LevelGrid::find(std::uint32_t place) const {
 
 Vec3 LevelGrid::between_texels(const LightmapPage& page, std::uint32_t x, std::uint32_t y) const {
   const Vec2 texel = Vec2(x, y) / static_cast<float>(side_) - 1.0f;
-  return irradiance_at(page, (texel + 0.5f) / Vec2(page.width, page.height));  // which has no cells yet
+  return irradiance_at(page, (texel + 0.5f) / Vec2(page.width, page.height));  // without cells as yet
 }
 
-// Of each change the share that is no noise, as the changes around tell (Wiener): where points do not tell more than
-// texels, these are smoother.
-void LevelGrid::leave_noise() {
+// Scales each change by its share of signal in the neighbourhood (Wiener): where points add nothing to texels, the
+// texels are smoother.
+void LevelGrid::remove_noise() {
   std::vector<float> share(place_.size());
   for (std::size_t k = 0; k < place_.size(); ++k) {
     float squares = 0, chance = 0;
-    for_each_around(k, [&](std::size_t other) {
+    for_each_neighbour(k, [&](std::size_t other) {
       const float change = luminance(change_[other]);
       squares += change * change, chance += noise_[other];
     });
@@ -136,40 +136,40 @@ void LevelGrid::leave_noise() {
     if (own_[k]) change_[k] *= share[k], noise_[k] *= share[k] * share[k];
 }
 
-// A point alone that differs more than all around it is one lucky path: shadows are longer than a point.
-void LevelGrid::leave_dots() {
+// Clamps points that differ more than all their neighbours: they are fireflies, as shadows are longer than a point.
+void LevelGrid::remove_outliers() {
   const std::vector<Vec3> before = change_;
   for (std::size_t k = 0; k < place_.size(); ++k) {
     if (!own_[k]) continue;
     Vec3 least(std::numeric_limits<float>::max()), most(-std::numeric_limits<float>::max());
-    for_each_around(k, [&](std::size_t other) {
+    for_each_neighbour(k, [&](std::size_t other) {
       if (other != k) least = glm::min(least, before[other]), most = glm::max(most, before[other]);
     });
     if (least.r <= most.r) change_[k] = glm::clamp(before[k], least, most);
   }
 }
 
-// Points that are known, of the nine around one.
+// Visits the points with a value among the nine around one.
 template <class Body>
-void LevelGrid::for_each_around(std::size_t k, const Body& body) const {
+void LevelGrid::for_each_neighbour(std::size_t k, const Body& body) const {
   for (const int dy : {-1, 0, 1})
     for (const int dx : {-1, 0, 1}) {
       const std::size_t other = find(place_[k] + static_cast<std::uint32_t>(dy * static_cast<int>(width_) + dx));
-      if (other < place_.size() && known_[other]) body(other);
+      if (other < place_.size() && has_value_[other]) body(other);
     }
 }
 
-// To points that are not known, from those beside them. False where there was none.
+// Extrapolates to points without a value from their neighbours. False if none got one.
 bool LevelGrid::spread() {
   std::vector<std::pair<std::size_t, Vec3>> found;
   for (std::size_t k = 0; k < place_.size(); ++k) {
-    if (known_[k]) continue;
+    if (has_value_[k]) continue;
     Vec3 sum(0);
     float count = 0;
-    for_each_around(k, [&](std::size_t other) { sum += change_[other], ++count; });
+    for_each_neighbour(k, [&](std::size_t other) { sum += change_[other], ++count; });
     if (count > 0) found.emplace_back(k, sum / count);
   }
-  for (const auto& [k, change] : found) change_[k] = change, known_[k] = 1;
+  for (const auto& [k, change] : found) change_[k] = change, has_value_[k] = 1;
   return !found.empty();
 }
 

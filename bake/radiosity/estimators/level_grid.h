@@ -1,4 +1,4 @@
-// By how much the points of a page's cells of one level differ from the interpolation of its texels.
+// The difference of finer cells' points, of one level, from the interpolation of a page's texels.
 #pragma once
 
 #include <functional>
@@ -10,35 +10,34 @@ namespace oriel {
 
 class LevelGrid {
  public:
-  // The points of one level. whole: the grid of kWholeLevel, where the level is more: between its points lies what
-  // `points` do not hold.
+  // The points of one level. whole: the grid of kWholeLevel, for a higher level. It fills in points that `light` lacks.
   struct Points {
     std::uint8_t level;
     const PointLight& light;
     const LevelGrid* whole = nullptr;
   };
 
-  // levels: by place of the page; the grid is that of cells that have points of that level. Of what they change the
-  // share that is no noise is kept, and a point alone that differs more than all around it is none.
+  // levels: by place of the page; the grid holds the cells with points of that level. Noise is removed from the
+  // differences, and so are outliers: points that differ more than all their neighbours.
   LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& levels, const Points& points,
             std::uint32_t page_number);
 
-  // Of point (i, j) of the cell at (x, y), which must be of this level or beside one. Those inside something or beyond
-  // the chart differ as their neighbours do.
+  // The difference at point (i, j) of the cell at (x, y), lux. The cell must be of this level or next to one. Points
+  // inside a body or beyond the chart get the mean of their neighbours.
   Vec3 at(std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j) const {
     const std::size_t k = find(number(x, y, i, j));
     return k < place_.size() ? change_[k] : Vec3(0);
   }
-  // What interpolation misses in the cell at (x, y): rms over its points that have light of their own, of luminance;
-  // nothing where none has.
+  // The interpolation error in the cell at (x, y): rms luminance difference of its points with light of their own, lux.
+  // Nothing without such points.
   std::optional<double> missed(std::uint32_t x, std::uint32_t y) const;
   struct Missed {
-    double square = 0, noise = 0;  // of luminance; squared error of points that takes its place
+    double square = 0, noise = 0;  // squared luminance difference, lux², and the points' variance
   };
-  // The same at a place in it, of [0,1]; nothing where a point around that is not of this level.
+  // The same at a position in it, [0,1]²; nothing where a surrounding point is not of this level.
   std::optional<Missed> missed_at(std::uint32_t x, std::uint32_t y, const Vec2& within) const;
-  // By how much light differs around a place in a cell, of [0,1], at the corners of the square of points that it lies
-  // in: relative to the most there and `floor`, luminance, lux.
+  // The range of luminance among the four points around a position in a cell, [0,1]², over the largest of them and
+  // `floor`, lux.
   double differs_at(const LightmapPage& page, std::uint32_t x, std::uint32_t y, const Vec2& within, double floor) const;
   std::uint32_t side() const { return side_; }
 
@@ -51,17 +50,17 @@ class LevelGrid {
   Vec3 between(std::uint32_t x, std::uint32_t y, const Vec2& within) const;
   void fill_from(const LevelGrid& whole, const LightmapPage& page, const std::vector<std::uint8_t>& levels,
                  const std::function<bool(std::uint32_t x, std::uint32_t y)>& is_lit);
-  void leave_noise();
-  void leave_dots();
+  void remove_noise();
+  void remove_outliers();
   bool spread();
   template <class Body>
-  void for_each_around(std::size_t k, const Body& body) const;
+  void for_each_neighbour(std::size_t k, const Body& body) const;
 
   std::uint32_t side_, width_;
   std::vector<std::uint32_t> place_;  // ascending
   std::vector<Vec3> change_;
-  std::vector<float> noise_;       // variance of it, luminance
-  std::vector<char> own_, known_;  // by point: whether it has light of its own; or of its neighbours
+  std::vector<float> noise_;           // variance of it, luminance
+  std::vector<char> own_, has_value_;  // by point: 1 with light of its own; 1 with any light
 };
 
 }  // namespace oriel

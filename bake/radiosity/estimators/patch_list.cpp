@@ -23,13 +23,13 @@ std::vector<std::uint32_t> connect_blocks(const Texels& t, const TexelGraph& gra
 void join_links(std::vector<PatchLink>& links) {
   std::stable_sort(links.begin(), links.end(),
                    [](const PatchLink& a, const PatchLink& b) { return a.patch < b.patch; });
-  std::size_t kept = 0;
+  std::size_t merged = 0;
   for (std::size_t i = 0; i < links.size(); ++i)
-    if (kept > 0 && links[kept - 1].patch == links[i].patch)
-      links[kept - 1].weight += links[i].weight;
+    if (merged > 0 && links[merged - 1].patch == links[i].patch)
+      links[merged - 1].weight += links[i].weight;
     else
-      links[kept++] = links[i];
-  links.resize(kept);
+      links[merged++] = links[i];
+  links.resize(merged);
   links.shrink_to_fit();
 }
 

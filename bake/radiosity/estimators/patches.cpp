@@ -15,14 +15,14 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kPatchesATask = 64;  // patches whose rays of one number are traced together
-constexpr double kAllLight = 1 + 1e-6;     // of the light, and what rounding adds
-constexpr double kRounding = 1e-5;         // of a patch's light: no growth yet
-constexpr double kDim = 1e-4;              // of the mean: what is darker need not be done
-constexpr int kPatience = 24;              // sweeps over which light may spread before a growth is one
-constexpr int kHasty = 200;                // sweeps that are taken however little time there is: they are cheap
-constexpr double kEndless = 0.1;           // a bound on further bounces from which light is said not to die away
-constexpr double kMuch = 2;                // of what patches hand on of direct light on the mean
-constexpr std::uint32_t kOfMuch = 8;  // times as many rays for those that hand on so much, out of a gap or a corner
+constexpr double kAllLight = 1 + 1e-6;     // of the light, with a margin for rounding
+constexpr double kRounding = 1e-5;         // of a patch's light: below it there is no growth
+constexpr double kDim = 1e-4;              // of the mean: darker patches need not converge
+constexpr int kPatience = 24;              // sweeps in which light may spread before growth counts
+constexpr int kHasty = 200;                // sweeps without regard to time: they are cheap
+constexpr double kEndless = 0.1;           // bound on further bounces from which light does not die away
+constexpr double kMuchFlux = 2;            // times the mean direct flux that patches reflect
+constexpr std::uint32_t kExtraRays = 8;    // factor of rays for patches with that flux in a gap or a corner
 
 class Solver {
  public:
@@ -34,7 +34,7 @@ class Solver {
     const std::vector<std::uint32_t> head = connect_blocks(texels, graph, options.side);
     for (const std::uint32_t i : coherent_order(texels)) {
       if (texels.visible[i] == 0) continue;
-      std::uint32_t& number = patch_of_[head[i]];  // a texel that is not visible has no neighbours
+      std::uint32_t& number = patch_of_[head[i]];  // invisible texels have no neighbours
       if (number == ~0u) {
         number = static_cast<std::uint32_t>(patches_.size());
         patches_.emplace_back();
@@ -49,10 +49,10 @@ class Solver {
     for (std::uint32_t i = 0; i < texels.count(); ++i)
       for (const std::uint32_t j : graph.of(i))
         if (patch_of_[i] != patch_of_[j] && same_chart(texels, i, j))
-          patches_[patch_of_[i]].beside.push_back(patch_of_[j]);
+          patches_[patch_of_[i]].neighbours.push_back(patch_of_[j]);
     for (LightPatch& patch : patches_) {
-      std::sort(patch.beside.begin(), patch.beside.end());
-      patch.beside.erase(std::unique(patch.beside.begin(), patch.beside.end()), patch.beside.end());
+      std::sort(patch.neighbours.begin(), patch.neighbours.end());
+      patch.neighbours.erase(std::unique(patch.neighbours.begin(), patch.neighbours.end()), patch.neighbours.end());
     }
     share_rays();
   }
@@ -69,7 +69,7 @@ class Solver {
     };
     loop.compute = [&](std::size_t g) {
       std::uint64_t traced = 0;
-      for (std::uint32_t k = 0; k < kOfMuch * options_.rays_per_patch; ++k)
+      for (std::uint32_t k = 0; k < kExtraRays * options_.rays_per_patch; ++k)
         traced += trace_sample(g * kPatchesATask, group_end(g), k, seed);
       for (std::size_t p = g * kPatchesATask; p < group_end(g); ++p) join_links(patches_[p].links);
       return traced;
@@ -84,7 +84,7 @@ class Solver {
   }
 
   // Predicts the seconds of trace() from one group in kOneIn; the links of these are dropped.
-  Result<double> foretell(const Stage& stage) {
+  Result<double> predict_seconds(const Stage& stage) {
     constexpr std::size_t kOneIn = 64;
     const std::size_t groups = (patches_.size() + kPatchesATask - 1) / kPatchesATask;
     const std::size_t tried = std::min(groups, groups / kOneIn + static_cast<std::size_t>(thread_count(stage.context)));
@@ -105,12 +105,12 @@ class Solver {
 
   std::vector<Vec3> interpolate(Context& context, const std::vector<Vec3>& of_patches) const;
   const std::vector<Vec3>& solution() const { return solution_; }
-  // The light of one group of lamps after as many bounces, by patch.
+  // The light of one light group after as many bounces, by patch.
   std::vector<Vec3> solve_group(Context& context, std::size_t group, int sweeps) const;
 
  private:
   std::size_t group_end(std::size_t g) const { return std::min(patches_.size(), (g + 1) * kPatchesATask); }
-  // Texels take turns in proportion to the surface that they show.
+  // Distributes rays over texels in proportion to their visible area.
   std::uint32_t texel_for(const LightPatch& patch, std::uint32_t turn) const {
     const double target = (turn + 0.5) / (patch.rays / kSamplePoints) * patch.area_m2;
     double sum = 0;
@@ -128,9 +128,10 @@ class Solver {
         std::accumulate(direct_flux.begin(), direct_flux.end(), 0.0) / static_cast<double>(patches_.size());
     for (std::size_t p = 0; p < patches_.size(); ++p) {
       LightPatch& patch = patches_[p];
-      const bool crowded = std::ranges::any_of(patch.texels, [&](auto t) { return texels_.occlusion_heavy[t]; });
-      patch.follows_near = !options_.most && direct_flux[p] > kMuch * mean;  // paths from there count no bounces
-      patch.rays = options_.rays_per_patch * (patch.follows_near && crowded ? kOfMuch : 1);
+      const bool occlusion_heavy =
+          std::ranges::any_of(patch.texels, [&](auto t) { return texels_.occlusion_heavy[t]; });
+      patch.follows_near = !options_.most && direct_flux[p] > kMuchFlux * mean;  // such paths do not count bounces
+      patch.rays = options_.rays_per_patch * (patch.follows_near && occlusion_heavy ? kExtraRays : 1);
     }
   }
   double shown_m2(std::uint32_t t) const { return double{texels_.area_m2[t]} * texels_.visible[t]; }
@@ -138,10 +139,10 @@ class Solver {
   std::uint64_t trace_sample(std::size_t first, std::size_t end, std::uint32_t k, std::uint64_t seed) {
     std::vector<Ray> batch;
     std::vector<GatherRay> info;
-    std::vector<std::size_t> asks;
+    std::vector<std::size_t> patch_of_ray;
     for (std::size_t p = first; p < end; ++p) {
       if (k >= patches_[p].rays) continue;
-      asks.push_back(p);
+      patch_of_ray.push_back(p);
       const std::uint32_t t = texel_for(patches_[p], k / kSamplePoints);
       GatherRay& ray = info.emplace_back();
       const GatherPoint point(texels_.sample_point(t, static_cast<int>(k % kHalves), k / kHalves));
@@ -155,7 +156,7 @@ class Solver {
     QueryResults results;
     query_.evaluate(batch, info, results);
     const auto link_to = [&](std::uint32_t ray, std::uint32_t texel, const Vec3& weight) {
-      LightPatch& patch = patches_[asks[ray]];
+      LightPatch& patch = patches_[patch_of_ray[ray]];
       const float share = 1.0f / static_cast<float>(patch.rays);
       patch.source += DVec3(weight * direct_[texel] * share);
       for (std::size_t g = 0; g < patch.grouped.size(); ++g)
@@ -163,7 +164,7 @@ class Solver {
       if (patch_of_[texel] != ~0u) patch.links.push_back({patch_of_[texel], weight * share});
     };
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
-      LightPatch& patch = patches_[asks[i]];
+      LightPatch& patch = patches_[patch_of_ray[i]];
       const float share = kPi / static_cast<float>(patch.rays);
       patch.source += DVec3(results.light[i] * share);
       for (std::size_t g = 0; g < patch.grouped.size(); ++g)
@@ -179,23 +180,23 @@ class Solver {
   // A bound on the weight sum of a patch, whose expectation is the mean reflectance that its rays meet. The bound is
   // the mean sum of the patch's neighbours and of the patches that it sees, 1 at most. Noise above it evens out over a
   // room, but makes light grow from sweep to sweep among a few such patches.
-  DVec3 most_handed_on(std::size_t p, const std::vector<DVec3>& sums) const {
+  DVec3 max_weight_sum(std::size_t p, const std::vector<DVec3>& sums) const {
     DVec3 sum(0);
     double count = 0;
     for (const PatchLink& link : patches_[p].links)
       if (link.patch != p) sum += sums[link.patch], ++count;
-    for (const std::uint32_t beside : patches_[p].beside) sum += sums[beside], ++count;
+    for (const std::uint32_t neighbour : patches_[p].neighbours) sum += sums[neighbour], ++count;
     if (count == 0) return DVec3(1);
     return glm::min(sum / count, DVec3(1));
   }
-  std::vector<DVec3> all_handed_on() const {
+  std::vector<DVec3> weight_sums() const {
     std::vector<DVec3> sums;
-    for (const LightPatch& patch : patches_) sums.push_back(handed_on(patch));
+    for (const LightPatch& patch : patches_) sums.push_back(weight_sum(patch));
     return sums;
   }
-  // Whether it had to be.
+  // Scales weights to sum to `most` at most; true if they had to be.
   static bool bound(LightPatch& patch, const DVec3& most) {
-    const DVec3 sum = handed_on(patch);
+    const DVec3 sum = weight_sum(patch);
     if (!glm::any(glm::greaterThan(sum, kAllLight * most))) return false;
     const Vec3 share(glm::min(most / glm::max(sum, DVec3(1e-30)), DVec3(1)));
     for (PatchLink& link : patch.links) link.weight *= share;
@@ -208,9 +209,9 @@ class Solver {
     double absolute = 0, share = 0;
   };
   Change sweep_once(Context& context, const std::vector<Vec3>& now, double floor, std::vector<Vec3>& next);
-  // Sweeps from what is not reflected until little is missing or there is enough; watches: or until their changes grow.
+  // Sweeps from unreflected light until converged, or `enough`; detects_growth: or until changes grow.
   enum class End { kDone, kGrows, kStopped };
-  End run(Context& context, bool watches, Sweeps& result);
+  End run(Context& context, bool detects_growth, Sweeps& result);
   // Bounds the patches whose light grows from sweep to sweep, and returns their number.
   std::size_t bound_growing(Context& context);
   void warn_of_no_end(Context& context, const Sweeps& result) const;
@@ -231,7 +232,7 @@ Solver::Change Solver::sweep_once(Context& context, const std::vector<Vec3>& now
   std::vector<Change> change((patches_.size() + kRun - 1) / kRun);
   (void)parallel_for(context, "", change.size(), [&](std::size_t run) {
     for (std::size_t p = run * kRun; p < std::min(patches_.size(), (run + 1) * kRun); ++p) {
-      // In double: a hundred bounces between white walls add up a hundred roundings.
+      // Sums are in double: a hundred bounces between white walls add up a hundred roundings.
       DVec3 sum(patches_[p].source);
       for (const PatchLink& link : patches_[p].links) sum += DVec3(link.weight * now[link.patch]);
       next[p] = Vec3(sum);
@@ -260,7 +261,7 @@ void Solver::warn_of_no_end(Context& context, const Sweeps& result) const {
                   result.count, incident.g, absorbed.g));
 }
 
-Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
+Solver::End Solver::run(Context& context, bool detects_growth, Sweeps& result) {
   const int most = options_.most.value_or(query_.transport().options.max_bounces);
   std::vector<Vec3> next(patches_.size());
   solution_.resize(patches_.size());
@@ -280,14 +281,14 @@ Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
     scale = 0;
     for (std::size_t p = 0; p < patches_.size(); ++p)
       scale += patches_[p].area_m2 * (solution_[p].r + solution_[p].g + solution_[p].b);
-    if (watches && !std::isfinite(change.absolute)) return End::kGrows;
+    if (detects_growth && !std::isfinite(change.absolute)) return End::kGrows;
     if (!(change.absolute > 0) || !(scale > 0)) return End::kDone;
     const double q = ratio(change.absolute, before.absolute), q_share = ratio(change.share, before.share);
     result.growth = q;
     result.tail = std::max(tail(change.absolute, q, scale), tail(change.share, q_share, patches));
     before = change;
     if (q < 1 && q_share < 1 && result.tail < options_.tolerance) return End::kDone;
-    if (watches && q > 1 && result.count >= kPatience) return End::kGrows;
+    if (detects_growth && q > 1 && result.count >= kPatience) return End::kGrows;
     if (result.count >= most) return End::kDone;
     if (result.count >= kHasty && options_.enough && options_.enough()) return End::kDone;
   }
@@ -297,14 +298,14 @@ std::size_t Solver::bound_growing(Context& context) {
   std::vector<Vec3> now(patches_.size()), next(patches_.size());
   (void)sweep_once(context, solution_, 0, now);
   (void)sweep_once(context, now, 0, next);
-  const std::vector<DVec3> sums = all_handed_on();
+  const std::vector<DVec3> sums = weight_sums();
   std::size_t bounded = 0;
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     const Vec3 was = glm::abs(now[p] - solution_[p]), is = glm::abs(next[p] - now[p]);
     const double grown = double{is.r} + is.g + is.b - was.r - was.g - was.b,
                  light = double{now[p].r} + now[p].g + now[p].b;
-    if (!(grown <= kRounding * light))  // of no numbers, too
-      bounded += bound(patches_[p], most_handed_on(p, sums));
+    if (!(grown <= kRounding * light))  // also for NaN
+      bounded += bound(patches_[p], max_weight_sum(p, sums));
   }
   return bounded;
 }
@@ -343,8 +344,8 @@ std::vector<Vec3> Solver::interpolate(Context& context, const std::vector<Vec3>&
         weights += off.x * off.y;
       };
       add(patch_of_[i]);
-      for (const std::uint32_t p : patches_[patch_of_[i]].beside) add(p);
-      gathered[i] = sum / weights;  // the own patch's is a quarter at least
+      for (const std::uint32_t p : patches_[patch_of_[i]].neighbours) add(p);
+      gathered[i] = sum / weights;  // its own patch has a weight of a quarter at least
     }
   });
   return gathered;
@@ -353,7 +354,7 @@ std::vector<Vec3> Solver::interpolate(Context& context, const std::vector<Vec3>&
 std::vector<Vec3> Solver::solve_group(Context& context, std::size_t group, int sweeps) const {
   constexpr std::size_t kRun = 256;
   std::vector<Vec3> now(patches_.size()), next(patches_.size());
-  // One more than the light itself had, which begins with what is not reflected.
+  // One sweep more than solve(), which starts from unreflected light.
   for (int sweep = 0; sweep <= sweeps && !context.stopped(); ++sweep, now.swap(next))
     (void)parallel_for(context, "", (patches_.size() + kRun - 1) / kRun, [&](std::size_t run) {
       for (std::size_t p = run * kRun; p < std::min(patches_.size(), (run + 1) * kRun); ++p) {
@@ -369,8 +370,8 @@ std::vector<Vec3> Solver::solve_group(Context& context, std::size_t group, int s
 Result<SweepOptions> affordable(const SweepScene& scene, SweepOptions options, const Stage& stage) {
   constexpr std::uint32_t kFewest = 2 * kSamplePoints, kLargest = 8;
   if (!std::isfinite(options.seconds)) return options;
-  Solver pilot(scene, options);
-  ORIEL_TRY(double needed, pilot.foretell(stage));
+  Solver calibration(scene, options);
+  ORIEL_TRY(double needed, calibration.predict_seconds(stage));
   while (needed > options.seconds && options.rays_per_patch > kFewest) options.rays_per_patch /= 2, needed /= 2;
   while (needed > options.seconds && options.side < kLargest) options.side *= 2, needed /= 4;
   return options;

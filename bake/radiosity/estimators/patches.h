@@ -1,5 +1,5 @@
-// Bounces: a coarse radiosity problem over patches of a few texels, whose answer the final gather refines. A block of
-// texels that walls divide is a patch for each part of it.
+// Multiple bounces: a coarse radiosity problem over patches of a few texels, whose solution the final gather refines. A
+// block of texels that walls divide has a patch for each connected part.
 #pragma once
 
 #include <functional>
@@ -15,21 +15,21 @@
 namespace oriel {
 
 struct SweepOptions {
-  // Patches are squares of so many texels. What is dark because it is hidden is hardly seen either; patches that mix it
-  // with what is lit and seen lose light: 0.25 % a bounce with 2, 0.5 % with 4 in a furnished room of 13 cm texels.
+  // Side of a patch in texels. A patch that mixes hidden, dark texels with lit and visible ones loses light: 0.25 % a
+  // bounce with 2, 0.5 % with 4, in a furnished room of 13 cm texels.
   std::uint32_t side = 1;
   std::uint32_t rays_per_patch = 64;
-  std::optional<int> most = {};       // sweeps; none: until the tolerance holds, or as many as paths have bounces
-  std::function<bool()> enough = {};  // asked after some hundred sweeps: true ends them; may be empty
-  double tolerance = 1e-3;            // of the light, bound on what further sweeps could add: see Sweeps::tail
-  double seconds = std::numeric_limits<double>::infinity();  // that the rays may take: less than they need are coarser
+  std::optional<int> most = {};       // limit on sweeps; none: the tolerance, or the bounces of paths
+  std::function<bool()> enough = {};  // polled after some hundred sweeps: true ends them; may be empty
+  double tolerance = 1e-3;            // relative, for Sweeps::tail
+  double seconds = std::numeric_limits<double>::infinity();  // for the rays: a shorter time gives coarser patches
 };
 
-// For so many texels, as a part of the error asked for.
+// Options by number of texels. error: the relative error requested, of which the bounces get a part.
 inline SweepOptions sweep_options(const RadiosityOptions& options, double error, std::size_t texels) {
-  constexpr double kTailShare = 0.05;           // of the error: what further bounces may add
-  constexpr double kCoarseTarget = 0.04;        // errors from which coarser bounces do
-  constexpr double kTime = 0.3;                 // of what is left
+  constexpr double kTailShare = 0.05;           // of the error: for the bounces left out
+  constexpr double kCoarseTarget = 0.04;        // errors from which coarse patches suffice
+  constexpr double kTime = 0.3;                 // of the time left
   constexpr std::size_t kMaxLinks = 64u << 20;  // 1 GiB
   SweepOptions how{.enough = options.enough};
   if (options.bounces > 0) how.most = options.bounces - 1;  // the gather itself is one
@@ -41,32 +41,35 @@ inline SweepOptions sweep_options(const RadiosityOptions& options, double error,
 }
 
 struct Sweeps {
-  std::vector<Vec3> gathered;  // by texel: irradiance that gather rays would find, interpolated from the patches, lux
-  GroupedLight grouped;        // the same by group of lamps, if asked
+  std::vector<Vec3> gathered;  // reflected irradiance by texel, interpolated from the patches, lux
+  GroupedLight grouped;        // the same by light group; may be empty
   int count = 0;
-  double tail = 0;    // the bound reached: what all further sweeps together add at most; the larger of that relative to
-                      // the mean and of the mean over patches, each relative to its own light
-  double growth = 0;  // of the last sweep's change over the one's before: below 1 where light dies away
+  // A bound on the light of all further sweeps, relative: the larger of that for the mean and of the mean over patches,
+  // each relative to its own light.
+  double tail = 0;
+  double growth = 0;        // change of the last sweep over that of the one before: below 1 where light dies away
   std::size_t bounded = 0;  // patches whose weights were bounded
   std::size_t patches = 0;
 };
 
-// Texels, what is around them, and the light that bounces.
+// The texels, the cache query for their rays, and the light to be reflected.
 struct SweepScene {
   const Texels& texels;
   const TexelGraph& graph;
   const CacheQuery& query;
-  std::span<const Vec3> direct;           // irradiance by texel that gather rays do not find (closed forms), lux
-  const GroupedLight* grouped = nullptr;  // `direct` by group of lamps; null: nobody asks
+  std::span<const Vec3> direct;           // irradiance by texel that gather rays leave out (closed forms), lux
+  const GroupedLight* grouped = nullptr;  // `direct` by light group; null: not wanted
 };
 
-// Each patch traces its rays once; then Jacobi sweeps run over what they found, until the geometric bound on the rest,
-// |ΔB| q/(1 - q) with q the ratio of successive changes, is below tolerance, for all light and for each patch beside
-// its own. Where the changes grow instead, noise of few rays makes patches hand on more than they get: those whose
-// light grows get weights that sum to no more than those of their surroundings, and in the end all sum to at most 1, so
-// that no sweep adds more than the one before: with direct light E₀ the result is at most (count + 1) max E₀. Where
-// light does not die away (a closed scene that absorbs nothing) as many bounces are added up as paths follow, and a
-// warning tells the energy balance. Error kStopped.
+// Solves the radiosity problem. Each patch traces its rays once. Jacobi iterations then run over the links until a
+// geometric bound on the remaining light, |ΔB| q/(1 - q) with q the ratio of successive changes, is below the
+// tolerance, for the sum and for each patch relative to its own light.
+//
+// Noise of few rays can give a patch a weight sum above its reflectance, so that the changes grow. Then the patches
+// whose light grows get their weights bounded by the mean sum of their neighbourhood, and in the end all sums by 1. No
+// sweep adds more than the one before then: with direct light E₀ the result is at most (count + 1) max E₀. Where light
+// does not die away (a closed scene that absorbs nothing), as many bounces are added as paths have, with a warning.
+// Error kStopped.
 Result<Sweeps> sweep(const SweepScene& scene, const SweepOptions& options, const Stage& stage);
 
 }  // namespace oriel

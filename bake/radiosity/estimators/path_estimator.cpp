@@ -9,7 +9,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is looked at
+constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is checked
 constexpr std::size_t kRaysAPath = 10;     // about
 constexpr std::size_t kRun = 64;  // texels a unit: long enough to hide scheduling, short enough to stop at once
 
@@ -24,7 +24,7 @@ Vec3 direction_of(const TexelSums& sums) {
 }
 
 void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::size_t texel) {
-  // A handful of points that escaped the probes do not make a texel visible.
+  // A texel is visible if at least a sixteenth of its points are.
   if (sums.count * 16 < asked || sums.count == 0) {
     page.state[texel] = TexelState::kBuried;
     return;
@@ -47,15 +47,15 @@ class PathEstimator : public LightEstimator {
     }
   }
 
-  // Rounds that double the paths. Each texel's sums go on from round to round: the result is that of one round.
+  // Doubles the paths in rounds. Sums continue from round to round: the result equals that of a single round.
   Status refine(const Goal& goal) override {
     const RadiosityOptions& options = task_.options;
     const bool in_rounds = goal.error > 0 || options.enough;
-    while (taken_ < options.samples) {
+    while (path_count_ < options.samples) {
       const std::uint32_t first = in_rounds ? std::min(options.samples, kFirstPaths) : options.samples;
-      ORIEL_TRY_VOID(take(taken_ == 0 ? first : std::min(options.samples, 2 * taken_)));
+      ORIEL_TRY_VOID(add_paths(path_count_ == 0 ? first : std::min(options.samples, 2 * path_count_)));
       if (task_.context.stopped() || (goal.error > 0 && error() <= goal.error)) return {};
-      if (taken_ == options.samples) return {};
+      if (path_count_ == options.samples) return {};
       if (options.enough) task_.context.finishable = true;
       if ((ended_early_ = options.enough && options.enough())) return {};
     }
@@ -66,33 +66,35 @@ class PathEstimator : public LightEstimator {
     light.report.ended_early = ended_early_;
     for (std::size_t p = 0; p < sums_.size(); ++p)
       for (std::size_t i = 0; i < sums_[p].size(); ++i) {
-        light.visible[p][i] = static_cast<float>(sums_[p][i].count) / static_cast<float>(std::max(taken_, 1u));
-        store(sums_[p][i], taken_, light.pages[p], task_.map[p].texel[i]);
+        light.visible[p][i] = static_cast<float>(sums_[p][i].count) / static_cast<float>(std::max(path_count_, 1u));
+        store(sums_[p][i], path_count_, light.pages[p], task_.map[p].texel[i]);
       }
   }
 
  private:
-  // Paths up to that number, from every texel.
-  Status take(std::uint32_t until) {
+  // Adds paths up to that number for every texel.
+  Status add_paths(std::uint32_t until) {
     const auto sums_of = [&](std::size_t r, Archive& archive) {
       for (std::size_t i = runs_[r].first; i < runs_[r].last; ++i) archive(sums_[runs_[r].page][i]);
     };
-    UnitLoop loop{
-        .stage = "paths", .count = runs_.size(), .rays = static_cast<double>(kRun * kRaysAPath) * (until - taken_)};
+    UnitLoop loop{.stage = "paths",
+                  .count = runs_.size(),
+                  .rays = static_cast<double>(kRun * kRaysAPath) * (until - path_count_)};
     loop.inputs = [&](std::size_t r, Archive& key) {
-      key(task_.options.directional, task_.options.eyes, runs_[r].page, runs_[r].first, runs_[r].last, taken_, until);
+      key(task_.options.directional, task_.options.eyes, runs_[r].page, runs_[r].first, runs_[r].last, path_count_,
+          until);
       sums_of(r, key);  // paths are added to them
     };
     loop.compute = [&](std::size_t r) {
       const std::size_t page = runs_[r].page;
       std::uint64_t traced = 0;
       for (std::size_t i = runs_[r].first; i < runs_[r].last && !task_.context.stopped(); ++i)
-        paths_.add({page, i}, {taken_, until}, sums_[page][i], traced);
+        paths_.add({page, i}, {path_count_, until}, sums_[page][i], traced);
       return traced;
     };
     loop.results = sums_of;
     ORIEL_TRY_VOID(parallel_units(task_.paths, loop));
-    taken_ = until;
+    path_count_ = until;
     return {};
   }
 
@@ -106,7 +108,7 @@ class PathEstimator : public LightEstimator {
   TexelPaths paths_;
   std::vector<Run> runs_;
   std::vector<std::vector<TexelSums>> sums_;  // by page and covered texel
-  std::uint32_t taken_ = 0;                   // paths of each texel
+  std::uint32_t path_count_ = 0;              // paths of each texel
   bool ended_early_ = false;
 };
 

@@ -7,6 +7,7 @@
 
 namespace oriel {
 
+// Creates it for a task, which must outlive it.
 std::unique_ptr<LightEstimator> make_path_estimator(const RadiosityTask& task);
 
 }  // namespace oriel

@@ -13,15 +13,15 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kFirstOfPoint = 2, kMostOfPoint = 32;  // samples a half, point and light; by fours
-constexpr float kUncertainPoint = 0.02f;                       // of the direct light: others get more
-constexpr double kUsualPointError = 0.02;                      // asked for: then a point and half has
-constexpr std::uint32_t kGather = 16, kMostGather = 64;        // rays; where less is asked for more, at most
-constexpr float kNoisy = 0.05f;            // relative error of a point's gathered light: then it has
-constexpr std::uint32_t kNoisyGather = 4;  // times as many
+constexpr float kUncertainPoint = 0.02f;                 // relative error of direct light: points above it get more
+constexpr double kUsualPointError = 0.02;                // requested error, at which a point and half gets
+constexpr std::uint32_t kGather = 16, kMostGather = 64;  // gather rays; at a smaller error more, at most
+constexpr float kNoisy = 0.05f;            // relative error of a point's gathered light: above it there are
+constexpr std::uint32_t kNoisyGather = 4;  // times as many rays
 
-constexpr std::uint32_t kPointDivisor = 4;  // times as few as texels try: points are small
+constexpr std::uint32_t kPointDivisor = 4;  // of the sample points that texels try: points are small
 
-// While it lives, random numbers and units of work are the points' own.
+// While it lives, random numbers and units of work are separate from those of texels.
 class OwnNumbers {
  public:
   OwnNumbers(Context& context, const DetailPoints& points)
@@ -60,9 +60,9 @@ std::uint32_t gathered_rays(const RadiosityOptions& options) {
   return static_cast<std::uint32_t>(std::min(rays, double{kMostGather}));
 }
 
-// What texels have between those around point i that have it.
+// Interpolates a quantity of the visible texels around point i.
 template <class OfTexel>
-Vec3 between_texels(const TexelLight& known, const Texels& points, std::size_t i, std::uint32_t side,
+Vec3 between_texels(const TexelLight& texel_light, const Texels& points, std::size_t i, std::uint32_t side,
                     const OfTexel& of_texel) {
   const float x = static_cast<float>(points.x[i]) / static_cast<float>(side) - 1;
   const float y = static_cast<float>(points.y[i]) / static_cast<float>(side) - 1;
@@ -71,8 +71,8 @@ Vec3 between_texels(const TexelLight& known, const Texels& points, std::size_t i
   float weights = 0;
   for (int dy = 0; dy < 2; ++dy)
     for (int dx = 0; dx < 2; ++dx) {
-      const std::uint32_t texel = known.texels.at(points.page[i], x0 + dx, y0 + dy);
-      if (texel == kNoTexel || known.texels.visible[texel] == 0) continue;
+      const std::uint32_t texel = texel_light.texels.at(points.page[i], x0 + dx, y0 + dy);
+      if (texel == kNoTexel || texel_light.texels.visible[texel] == 0) continue;
       const float weight =
           (1 - std::fabs(x - static_cast<float>(x0 + dx))) * (1 - std::fabs(y - static_cast<float>(y0 + dy)));
       sum += weight * of_texel(texel), weights += weight;
@@ -80,38 +80,41 @@ Vec3 between_texels(const TexelLight& known, const Texels& points, std::size_t i
   return weights > 0 ? sum / weights : Vec3(0);
 }
 
-// Light that no gather ray looks for.
-Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std::uint32_t side) {
-  if (known.beside.empty()) return Vec3(0);
-  return between_texels(known, points, i, side, [&](std::uint32_t texel) { return known.beside[texel]; });
+// Light that gather rays leave out.
+Vec3 additional_at(const TexelLight& texel_light, const Texels& points, std::size_t i, std::uint32_t side) {
+  if (texel_light.additional.empty()) return Vec3(0);
+  return between_texels(texel_light, points, i, side,
+                        [&](std::uint32_t texel) { return texel_light.additional[texel]; });
 }
 
-// The filtered light of points by group; what is beside it is added.
-GroupedLight add_beside(const TexelLight& known, const Texels& points, std::uint32_t side, GroupedLight grouped) {
-  for (std::size_t i = 0; i < points.count() && !known.additional_grouped.empty(); ++i)
+// Adds additional light to the filtered light of points by group.
+GroupedLight add_additional(const TexelLight& texel_light, const Texels& points, std::uint32_t side,
+                            GroupedLight grouped) {
+  for (std::size_t i = 0; i < points.count() && !texel_light.additional_grouped.empty(); ++i)
     for (std::size_t g = 0; g < grouped.groups; ++g)
-      grouped.of(i)[g] += between_texels(known, points, i, side,
-                                         [&](std::uint32_t texel) { return known.additional_grouped.of(texel)[g]; });
+      grouped.of(i)[g] += between_texels(texel_light, points, i, side, [&](std::uint32_t texel) {
+        return texel_light.additional_grouped.of(texel)[g];
+      });
   return grouped;
 }
 
-// The texel under a point has the light of one side of a wall that stands on it: points on the other side have none.
-void leave_out_parted(const TexelLight& known, const DetailPoints& points, Texels& texels) {
+// Hides points that a wall separates from their texel, which has the light of the other side.
+void hide_separated(const TexelLight& texel_light, const DetailPoints& points, Texels& texels) {
   for (std::size_t i = 0; i < texels.count(); ++i) {
     if (texels.visible[i] == 0) continue;
     const TexelPoint at = sample_texel(points.atlas, points.map[texels.page[i]], texels.index[i], Vec3(0.5f));
-    if (known.texels.parts(at.triangle, at.barycentric)) texels.visible[i] = 0;
+    if (texel_light.texels.parts(at.triangle, at.barycentric)) texels.visible[i] = 0;
   }
 }
 
-// By point, whether a cell that it belongs to gathers.
+// Per point, 1 if a cell that it belongs to gathers.
 std::vector<char> which_gather(const DetailPoints& points, const Texels& texels,
                                std::span<const std::vector<char>> gathers) {
   std::vector<char> which(texels.count());
   for (std::size_t i = 0; i < which.size(); ++i) {
     const std::uint32_t width = points.atlas.pages[texels.page[i]].width / points.side - 2;
     const std::vector<char>& cells = gathers[texels.page[i]];
-    // Of a point on a cell's side the cell before has it, too.
+    // A point on a cell's side belongs to the previous cell, too.
     for (const std::uint32_t y : {texels.y[i], texels.y[i] - 1})
       for (const std::uint32_t x : {texels.x[i], texels.x[i] - 1}) {
         const std::size_t place = std::size_t{y / points.side - 1} * width + x / points.side - 1;
@@ -121,29 +124,31 @@ std::vector<char> which_gather(const DetailPoints& points, const Texels& texels,
   return which;
 }
 
-// What texels around a point have of light that surfaces reflect, without what is beside it.
-Vec3 known_reflected(const TexelLight& known, const Texels& points, std::size_t i, std::uint32_t side) {
-  return between_texels(known, points, i, side, [&](std::uint32_t texel) { return known.reflected.value[texel]; }) -
-         beside_at(known, points, i, side);
+// The texels' reflected light at a point, without additional light.
+Vec3 texel_reflected(const TexelLight& texel_light, const Texels& points, std::size_t i, std::uint32_t side) {
+  return between_texels(texel_light, points, i, side,
+                        [&](std::uint32_t texel) { return texel_light.reflected.value[texel]; }) -
+         additional_at(texel_light, points, i, side);
 }
 
-// Points that do not gather have the texels' light.
-void assume_known(const TexelLight& known, const Texels& points, std::uint32_t side, std::span<const char> gathers,
-                  HalfSums& gathered) {
-  const std::size_t groups = known.reflected_grouped.groups;
+// Sets the texels' reflected light at points that do not gather.
+void set_texel_light(const TexelLight& texel_light, const Texels& points, std::uint32_t side,
+                     std::span<const char> gathers, HalfSums& gathered) {
+  const std::size_t groups = texel_light.reflected_grouped.groups;
   GroupedLight grouped(groups > 0 ? points.count() : 0, groups);
   for (std::size_t i = 0; i < points.count(); ++i) {
     if (gathers[i] || points.visible[i] == 0) continue;
     for (std::size_t g = 0; g < groups; ++g)
-      grouped.of(i)[g] = between_texels(known, points, i, side, [&](std::uint32_t texel) {
-        const Vec3 beside = known.additional_grouped.empty() ? Vec3(0) : known.additional_grouped.of(texel)[g];
-        return known.reflected_grouped.of(texel)[g] - beside;
+      grouped.of(i)[g] = between_texels(texel_light, points, i, side, [&](std::uint32_t texel) {
+        const Vec3 additional =
+            texel_light.additional_grouped.empty() ? Vec3(0) : texel_light.additional_grouped.of(texel)[g];
+        return texel_light.reflected_grouped.of(texel)[g] - additional;
       });
-    gathered.set_assumed(i, known_reflected(known, points, i, side), 0, grouped);
+    gathered.set_assumed(i, texel_reflected(texel_light, points, i, side), 0, grouped);
   }
 }
 
-void leave_noisy(const Estimate& gathered, const std::vector<Vec3>& direct, std::vector<std::uint32_t>& list) {
+void keep_noisy(const Estimate& gathered, const std::vector<Vec3>& direct, std::vector<std::uint32_t>& list) {
   std::erase_if(list, [&](std::uint32_t i) {
     const float light = luminance(gathered.value[i] + direct[i]);
     return !(luminance(gathered.variance[i]) > kNoisy * kNoisy * light * light);
@@ -152,7 +157,7 @@ void leave_noisy(const Estimate& gathered, const std::vector<Vec3>& direct, std:
 
 }  // namespace
 
-Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& known, const DetailPoints& points,
+Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& texel_light, const DetailPoints& points,
                                 std::span<const std::vector<char>> gathers) {
   Context& context = task.context;
   const OwnNumbers own(context, points);
@@ -160,44 +165,45 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   PointLight result;
   ORIEL_TRY(result.texels,
             list_texels(scene, task.quick,
-                        {.eyes = known.texels.eyes, .hit_by_rays = false, .point_divisor = kPointDivisor}));
-  leave_out_parted(known, points, result.texels);
+                        {.eyes = texel_light.texels.eyes, .hit_by_rays = false, .point_divisor = kPointDivisor}));
+  hide_separated(texel_light, points, result.texels);
   const Texels& texels = result.texels;
   const std::size_t n = texels.count();
   const ExtraSamplePoints sample_points(scene, texels, context.seed);
   const std::vector<std::uint32_t> order = coherent_order(texels);
   ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, task.paths));
-  DirectSums direct(n, false, known.query.groups());
+  DirectSums direct(n, false, texel_light.query.groups());
   ORIEL_TRY_VOID(light_directly(task, {task.transport, texels, sample_points, context.seed}, order, graph, direct));
-  HalfSums gathered(n, false, known.query.groups());
+  HalfSums gathered(n, false, texel_light.query.groups());
   Estimate indirect;
   const std::vector<char> which = which_gather(points, texels, gathers);
-  assume_known(known, texels, points.side, which, gathered);
+  set_texel_light(texel_light, texels, points.side, which, gathered);
   std::vector<std::uint32_t> list = order;
   std::erase_if(list, [&](std::uint32_t i) { return !which[i]; });
-  const FinalGather final_gather{sample_points, known.query, known.cached};
+  const FinalGather final_gather{sample_points, texel_light.query, texel_light.cached};
   const std::uint32_t first = gathered_rays(task.options);
   for (std::uint32_t rays = first; rays <= kNoisyGather * first; rays *= kNoisyGather) {
     ORIEL_TRY_VOID(final_gather.run(list, rays, task.paths, gathered));
     indirect = filter(texels, graph, halves_of(gathered, context), task.options.filter, context);
-    leave_noisy(indirect, direct.value, list);
+    keep_noisy(indirect, direct.value, list);
     if (list.empty()) break;
   }
   const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow(task.options.filter), context);
   GroupedLight grouped = filter_groups(texels, graph, LightSums{direct, gathered}, task.options.filter, context);
-  result.grouped = add_beside(known, texels, points.side, std::move(grouped));
-  if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
+  result.grouped = add_additional(texel_light, texels, points.side, std::move(grouped));
+  if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter was interrupted
   result.light.resize(n), result.variance.resize(n), result.uneven.resize(n);
   result.reflected_change.resize(n), result.reflected_noise.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     if (texels.visible[i] == 0) continue;
-    result.light[i] = glm::max(lit.value[i] + indirect.value[i] + beside_at(known, texels, i, points.side), Vec3(0));
+    result.light[i] =
+        glm::max(lit.value[i] + indirect.value[i] + additional_at(texel_light, texels, i, points.side), Vec3(0));
     result.variance[i] = lit.variance[i] + indirect.variance[i];
     result.uneven[i] = luminance(direct.uneven[i]);
     if (!which[i]) continue;
-    result.reflected_change[i] = luminance(indirect.value[i] - known_reflected(known, texels, i, points.side));
-    const Vec3 of_texels = between_texels(known, texels, i, points.side,
-                                          [&](std::uint32_t texel) { return known.reflected.variance[texel]; });
+    result.reflected_change[i] = luminance(indirect.value[i] - texel_reflected(texel_light, texels, i, points.side));
+    const Vec3 of_texels = between_texels(texel_light, texels, i, points.side,
+                                          [&](std::uint32_t texel) { return texel_light.reflected.variance[texel]; });
     result.reflected_noise[i] = luminance(indirect.variance[i] + of_texels);
   }
   return result;

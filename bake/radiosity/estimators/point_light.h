@@ -1,5 +1,5 @@
-// The light at the points of finer cells: what the cached estimator does for texels, once, with the bounces that it
-// has.
+// The light at the points of finer cells: the cached estimator's direct light and final gather, done once, with the
+// texels' cache for the bounces.
 #pragma once
 
 #include "bake/radiosity/estimators/estimator.h"
@@ -9,20 +9,20 @@
 
 namespace oriel {
 
-// By point, as numbered in `texels`.
+// Light by point; points are numbered as in `texels`.
 struct PointLight {
-  Texels texels;               // points that lie inside something have visible 0
+  Texels texels;               // points inside a body have visible 0
   std::vector<Vec3> light;     // lux
-  std::vector<Vec3> variance;  // of it, stated, lux²
-  std::vector<float> uneven;   // squared error of direct light that varies within the point's area, luminance
-  GroupedLight grouped;        // light by group of lamps, if asked
-  // Of points that gather: what their reflected light differs by from the texels' around, and the squared error of
-  // that, both of luminance. 0 of others, which have the texels'.
+  std::vector<Vec3> variance;  // estimated, lux²
+  std::vector<float> uneven;   // variance of direct light within the point's area, luminance, lux²
+  GroupedLight grouped;        // `light` by light group; may be empty
+  // Per point that gathers: luminance difference of its reflected light from the interpolated texels, lux, and the
+  // variance of that, lux². 0 for others, which take the texels' light.
   std::vector<float> reflected_change, reflected_noise;
 };
 
-// gathers: by page and place, the cells whose points gather light. Error kStopped.
-Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& known, const DetailPoints& points,
+// gathers: by page and place, true for cells whose points gather light. Error kStopped.
+Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& texel_light, const DetailPoints& points,
                                 std::span<const std::vector<char>> gathers);
 
 }  // namespace oriel

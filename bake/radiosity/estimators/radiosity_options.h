@@ -1,4 +1,4 @@
-// What radiosity is asked for, what it makes, and what it says of that.
+// Options, results and report of the radiosity stage.
 #pragma once
 
 #include <cmath>
@@ -10,16 +10,17 @@
 
 namespace oriel {
 
-// How a smoothing filter of the gathered light works (filter.h).
+// Options of the smoothing filter (filter.h).
 struct FilterOptions {
-  int scales = 3;      // the first does the work of about 33 times the rays, each further one of four times that of the
-                       // one before, where the halves of the estimate agree that it is right
-  float strength = 1;  // edges of this many standard deviations are kept; 0: no filter
+  // Number of scales: the first equals about 33 times the rays, each further one four times the one before, where the
+  // halves of the estimate show that it reduces the error.
+  int scales = 3;
+  float strength = 1;  // edge threshold in standard deviations; 0: no filter
 };
 
-inline constexpr int kRefinements = 2;  // after verification
-// RadiosityOptions::most_rays of a bake for which nobody named an error: a minute or two of two cores. And what a texel
-// may have on average, where that is more.
+inline constexpr int kRefinements = 2;  // at most, after verification
+// The default of RadiosityOptions::most_rays where no error is given: a minute or two on two cores. Scenes of many
+// texels may have kMostTexelMean rays a texel instead.
 inline constexpr std::uint64_t kDefaultMostRays = 32 << 20, kMostTexelMean = 256;
 
 enum class Estimator : std::uint8_t {
@@ -27,10 +28,10 @@ enum class Estimator : std::uint8_t {
   kCached,     // bounces cached in the lightmap, one final gather, filtered
 };
 
-// What texels hold of the parts of them that lie inside other geometry.
+// The light of the parts of texels that lie inside other geometry.
 enum class Hidden : std::uint8_t {
-  kLeftOut,  // the light of what can be seen: no dark rims where objects stand on a floor
-  kBlack,    // no light, as most bakers have it: for comparing with them. Seams are not stitched then
+  kLeftOut,  // left out of the texel's mean: no dark rims where objects stand on a floor
+  kBlack,    // black, as in most bakers, for comparison. Seams are not stitched then
 };
 
 struct RadiosityOptions {
@@ -38,123 +39,123 @@ struct RadiosityOptions {
   std::uint32_t samples = 256;  // reference: paths a texel, best a power of two; the error falls as 1/√samples.
                                 // cached: gather rays a texel, at most
   double error = 0;             // stop at this error of frames (RadiosityReport::relative_error); 0: take all samples
-  // cached: refinement to `error` ends after so many rays (or kMostTexelMean a texel), a shadow ray being a third of
-  // one, with the error that is stated then. 0: never for that.
+  // cached: limit on the rays of refinement (or kMostTexelMean a texel), a shadow ray counting a third. The error
+  // reached by then is stated. 0: no limit.
   std::uint64_t most_rays = 0;
-  int bounces = 0;  // reflections counted after leaving the texel; 0: all. For comparing with bakers that stop
-  // Asked by many threads while an estimate is refined: true ends that at once, and what is there is the result (a time
-  // limit, say). Context::finishable is set while it is asked.
+  int bounces = 0;  // limit on reflections after leaving the texel, for comparison with other bakers; 0: all
+  // Polled by many threads during refinement: true ends it at once with the result so far, as for a time limit.
+  // Context::finishable is set meanwhile.
   std::function<bool()> enough = {};
-  // Seconds that the estimate and its verification may still take; empty: as long as they need. Where they are few,
-  // bounces have fewer rays, texels that no gather ray left keep the bounces' light, and nothing is verified.
+  // Seconds left for the estimate and its verification; empty: no limit. When they are few, bounces get fewer rays,
+  // texels without gather rays keep the bounces' light, and verification is left out.
   std::function<double()> left = {};
   bool late() const { return left && left() <= 0; }
-  // Whether no time at all is left, not even that of later stages: seams are stitched until then, which takes little.
+  // True if no time is left at all, not even that of later stages. Seams, which take little, are stitched until then.
   std::function<bool()> over = {};
-  // Where people's eyes are, scene space, m: the error is that of the frames which they see
-  // (texels/frame_error.h). Empty: anywhere in the air in front of surfaces. `held_out` are others, by which the error
-  // is verified; empty: other directions from the same.
+  // Positions of people's eyes, scene space, m: the error is that of frames seen from there (texels/frame_error.h).
+  // Empty: anywhere in the air in front of surfaces. held_out: other positions, for the held-out error; empty: other
+  // directions from the same ones.
   std::vector<Vec3> eyes = {}, held_out = {};
-  // cached: so many rays, as a share of the bake's, measure the error of held-out pixels by unbiased paths (at least
-  // some thousand); 0: none. What is measurably worse than 1.1 times `error` is refined where less noise, or looking
-  // up less (cached.h), can mend it, at most kRefinements times.
+  // cached: rays that measure the held-out error by unbiased paths, as a fraction of the bake's (at least some
+  // thousand); 0: none. If it is measurably above 1.1 times `error`, the light is refined again, where less noise or
+  // longer paths before look-ups can reduce it, at most kRefinements times.
   double verify = 0.1;
-  // cached: tiles of texels whose light an edit of the scene changes by no more than this, relative, keep that of the
-  // last bake with these options that reused none (Context::units knows it); 0: all are baked.
+  // cached: relative change of light by an edit of the scene, up to which tiles of texels reuse the light of the last
+  // bake with these options that reused none itself (in Context::units); 0: no reuse.
   double reuse_error = 0;
   FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
-  bool fit_texels = false;   // values whose interpolation has the texels' light (texels/fit_texels.h), not their means
+  bool fit_texels = false;   // deconvolve values for bilinear interpolation (texels/fit_texels.h)
   std::uint32_t detail = 1;  // cached: cells between texels are divided into up to so many steps a side (a power of 2
                              // up to 32) where light changes within them (cells.h)
   bool stitch = true;        // make light continuous over the seams of the lightmap
   bool directional = false;  // fill LightmapPage::direction
 };
 
-// Seams of the lightmap (seams.h), and what stitching did to the light there. Steps are differences of what bilinear
-// filtering reads on the two sides, relative to the light there (plus 1 % of the mean); of luminance.
+// Seams of the lightmap (seams.h) before and after stitching. Steps are luminance differences of bilinear filtering on
+// the two sides, relative to the light there (plus 1 % of the mean).
 struct SeamReport {
-  std::size_t pairs = 0;  // of edges that were stitched
+  std::size_t pairs = 0;  // stitched pairs of edges
   double mean_step_before = 0, max_step_before = 0;
   double mean_step = 0, max_step = 0;  // after
   double energy_change = 0;            // of the power on all surfaces, relative
-  double moved = 0;                    // by how much, rms over all surfaces, relative to the light of each texel
+  double moved = 0;                    // change of texels, rms over all surfaces, relative to each texel's light
 };
 
-// A pixel whose light is far off.
+// A frame pixel with a large error.
 struct WorstPixel {
-  std::uint32_t triangle = 0;   // that it shows
+  std::uint32_t triangle = 0;   // visible in it
   Vec3 position{0};             // scene space, m
   double baked = 0, paths = 0;  // luminance, cd/m²
-  double share = 0;             // of the squared error of all pixels compared, at most 1: their noise may be negative
+  double share = 0;             // of the squared error of all pixels, at most 1
 };
 
-// What unbiased paths at held-out pixels say of the light that frames show (certificate.h).
-struct Certificate {
+// The error of frame light against unbiased paths at held-out pixels (held_out_error.h).
+struct HeldOutError {
   std::size_t pixels = 0;                // compared
-  std::uint64_t paths = 0;               // from the points of all of them
+  std::uint64_t paths = 0;               // of all pixels
   double bias = 0;                       // Σ (baked - paths) / Σ paths, luminance
-  double bias_interval = 0;              // the truth lies within bias ± this with 95 % certainty
-  double relative_error = 0;             // rms over pixels (texels/frame_error.h), free of the paths' own noise
-  double error_low = 0, error_high = 0;  // the rms of all pixels lies between with 95 % certainty
-  // The same of the texels that pixels read, each as a whole: what is beyond that is their size and interpolation.
-  // Asked where the error was missed and that may be why; 0: not asked.
+  double bias_interval = 0;              // 95 % confidence: bias ± this
+  double relative_error = 0;             // rms over pixels (texels/frame_error.h), without the paths' noise
+  double error_low = 0, error_high = 0;  // 95 % confidence interval of the rms
+  // The same for the means of the texels that pixels read: the rest is due to texel size and interpolation. Measured
+  // where the error was missed and this may be the reason; else 0.
   double texel_error = 0;
   std::uint64_t rays = 0;
-  std::vector<WorstPixel> worst;  // eight at most, worst first; none holds less than a hundredth
+  std::vector<WorstPixel> worst;  // at most eight, the worst first, each with 1 % of the squared error or more
 };
 
-// What an edit of the scene left of the light of the bake before (RadiosityOptions::reuse_error).
+// Reuse of the previous bake's light after an edit (RadiosityOptions::reuse_error).
 struct ReuseReport {
-  double asked = 0;                 // 0: all was baked
-  std::size_t tiles = 0, kept = 0;  // of about 64 texels each
-  double error = 0;                 // that this brings: rms over what is seen, relative; relative_error has it in it
+  double asked = 0;                   // 0: all was baked
+  std::size_t tiles = 0, reused = 0;  // of 64 texels each; those reused
+  double error = 0;                   // due to reuse: rms over visible texels, relative; included in relative_error
 };
 
 // Finer light (LightmapPage::cell).
 struct DetailReport {
   std::size_t cells = 0, points = 0;
-  double relative_error = 0;  // stated, rms over points
-  double unresolved = 0;      // what interpolation still misses, as told: rms over frames, relative
-  bool left_out = false;      // there was no time
+  double relative_error = 0;  // estimated, rms over points
+  double unresolved = 0;      // estimated error of interpolation that remains: rms over frames, relative
+  bool left_out = false;      // for lack of time
   std::uint64_t rays = 0;
 };
 
 struct RadiosityReport {
   DetailReport detail;
   ReuseReport reuse;
-  Certificate certificate;  // of the cached estimator
+  HeldOutError held_out_error;  // of the cached estimator
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones
   std::size_t buried = 0;
   Vec3 mean{0};               // lux, over valid texels
   Vec3 max{0};                // lux
-  double relative_error = 0;  // rms of standard error over the pixels that eyes see (texels/frame_error.h)
+  double relative_error = 0;  // rms of standard error over frame pixels (texels/frame_error.h)
   double stated() const { return std::hypot(relative_error, detail.unresolved); }
-  int sweeps = 0;                   // cached: bounces computed in the coarse lightmap
-  bool ended_early = false;         // by `enough`: the error asked for does not hold
+  int sweeps = 0;                   // cached: Jacobi iterations over the patches
+  bool ended_early = false;         // by `enough`, above the error requested
   std::uint64_t first_rays = 0;     // cached: of `rays`, before any refinement
-  bool out_of_rays = false;         // by RadiosityOptions::most_rays: neither
-  int refinements = 0;              // cached: after held-out pixels told of a larger error than was asked for
-  double sweep_tail = 0;            // cached: bound on what further bounces would add, relative
-  double sweep_growth = 0;          // cached: what the last bounce added over what the one before did
-  std::size_t bounded_patches = 0;  // cached: of the coarse lightmap, that handed on more than they got (patches.h)
-  double filter_drift = 0;          // cached: size of the relative change of the gathered energy by the filter
+  bool out_of_rays = false;         // ended by RadiosityOptions::most_rays, likewise
+  int refinements = 0;              // cached: repeated because of the held-out error
+  double sweep_tail = 0;            // cached: bound on the light of further bounces, relative
+  double sweep_growth = 0;          // cached: light of the last bounce over that of the one before
+  std::size_t bounded_patches = 0;  // cached: patches with bounded weights (patches.h)
+  double filter_drift = 0;          // cached: relative change of energy by the filter, absolute value
   SeamReport seams;
   DVec3 incident_lm{0};  // power falling on the visible parts of all lightmapped surfaces, front sides
 };
 
 struct Radiosity {
   std::vector<LightmapPage> pages;
-  // By page and covered texel (as TexelMapPage::texel): the share of the texel's surface that is not inside other
-  // geometry nor behind a wall on the texel (TexelPart). With Hidden::kBlack all 1: the light has it in it.
+  // Visible fraction of each covered texel, by page and index into TexelMapPage::texel: neither inside other geometry
+  // nor behind a wall on the texel (TexelPart). All 1 with Hidden::kBlack, which has it in the light.
   std::vector<std::vector<float>> visible;
-  // By page and y * width + x: cells (LightmapPage::cell) whose light meets that of another place across a stitched
-  // seam. Empty where nothing was stitched.
+  // True for cells (LightmapPage::cell) whose light continues across a stitched seam, by page and y * width + x. Empty
+  // without stitching.
   std::vector<std::vector<bool>> at_seam{};
-  // By group of lamps (Scene::light_groups) and page: irradiance and details, states and cells being the pages'. Their
-  // sum is the pages' light but for rounding. Empty where there are no groups, or the estimator does not tell.
+  // Irradiance and details by light group (Scene::light_groups) and page; states and cells are those of `pages`. They
+  // sum to the light of `pages`, apart from rounding. Empty without groups, or if the estimator does not separate them.
   std::vector<std::vector<LightmapPage>> groups{};
   RadiosityReport report;
 };

@@ -6,7 +6,7 @@
 
 namespace oriel {
 
-std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const std::uint32_t> open,
+std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const std::uint32_t> candidates,
                                         const TexelErrors& of, const WorstOptions& options, Context& context) {
   const auto& [squares, importance, samples] = of;
   std::vector<float> typical(squares);
@@ -14,7 +14,7 @@ std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const
   typical = typical_errors(graph, std::move(typical), context);
   for (std::size_t i = 0; i < typical.size(); ++i) typical[i] /= static_cast<float>(std::max(1u, samples[i]));
   std::vector<std::uint32_t> by_error;
-  for (const std::uint32_t i : open)
+  for (const std::uint32_t i : candidates)
     if (typical[i] > options.goal / 4 * importance[i]) by_error.push_back(i);
   const auto gain_a_ray = [&](std::uint32_t i) { return double{typical[i]} / std::max(1u, samples[i]); };
   std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -22,12 +22,12 @@ std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const
     return ga != gb ? ga > gb : a < b;
   });
   double left = options.excess;
-  std::size_t taken = 0;
-  for (; taken < by_error.size() && left > 0; ++taken) left -= options.gain * typical[by_error[taken]];
-  by_error.resize(taken);
+  std::size_t count = 0;
+  for (; count < by_error.size() && left > 0; ++count) left -= options.gain * typical[by_error[count]];
+  by_error.resize(count);
   std::sort(by_error.begin(), by_error.end());
   std::vector<std::uint32_t> in_order;
-  for (const std::uint32_t i : open)
+  for (const std::uint32_t i : candidates)
     if (std::binary_search(by_error.begin(), by_error.end(), i)) in_order.push_back(i);
   return in_order;
 }

@@ -1,4 +1,4 @@
-// Which texels to refine.
+// Choice of the texels to refine.
 #pragma once
 
 #include "bake/radiosity/texels/neighbours.h"
@@ -6,36 +6,36 @@
 namespace oriel {
 
 struct WorstOptions {
-  double goal = 0;    // mean square asked for
-  double excess = 0;  // of it that is to go
-  double gain = 0.5;  // part of a texel's that its refinement takes away
+  double goal = 0;    // mean square requested
+  double excess = 0;  // mean square to be removed
+  double gain = 0.5;  // fraction of a texel's square that its refinement removes
 };
 
-// By texel.
+// Errors by texel.
 struct TexelErrors {
-  const std::vector<float>& squares;          // its part of the mean square
-  const std::vector<float>& importance;  // of frames that it fills, as its surroundings tell
-  const std::vector<std::uint32_t>& samples;  // what it has so far, which doubling costs once more
+  const std::vector<float>& squares;          // contribution to the mean square
+  const std::vector<float>& importance;       // fraction of the frame pixels, averaged over the neighbourhood
+  const std::vector<std::uint32_t>& samples;  // so far; doubling them costs as many again
 };
 
-// Of `open` (in coherent_order) those, in that order, whose refinement takes the excess away at the least cost: the
-// worst first, by what their surroundings tell of them, since texels chosen by their own noisy errors would stop where
-// chance made these small, and those between the pixels that tell of errors would be forgotten. Those twice as good as
-// asked are left alone: they cannot make up for a few that stay bad.
-std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const std::uint32_t> open,
+// Chooses from `candidates` (in coherent_order) texels whose refinement removes options.excess at the least cost, and
+// returns them in that order. The worst come first, by errors averaged over their neighbourhood (typical_errors): their
+// own noisy errors would stop refinement where chance made them small, and would miss texels between the frame pixels.
+// Texels twice as good as the goal are left out: they cannot make up for a few bad ones.
+std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const std::uint32_t> candidates,
                                         const TexelErrors& of, const WorstOptions& options, Context& context);
 
-// Texels that have the same number of samples.
+// Texels with the same number of samples.
 struct SameSamples {
   std::uint32_t samples = 0;
   std::vector<std::uint32_t> texels;
 };
-// In the list's order, each. samples: by texel.
+// Groups a list by number of samples; each group keeps the list's order. samples: by texel.
 std::vector<SameSamples> groups_of(std::span<const std::uint32_t> list, const std::vector<std::uint32_t>& samples);
 
-// Of `texels` those that fill the least of frames, which together would add no more than `square` to the mean square
-// were all their light wrong. By texel. Bounces are carried by coarser patches with rays of their own: what these
-// texels get beside it are a few rays each. None where no error is asked for (square 0).
+// Marks the texels of least importance (true): all together they would add no more than `square` to the mean
+// square if their light were all wrong. Coarser patches with their own rays carry the bounces, so these texels get a
+// few rays each. None for square 0, where no error is requested.
 std::vector<bool> little_seen(std::span<const std::uint32_t> texels, const std::vector<float>& importance,
                               double square);
 

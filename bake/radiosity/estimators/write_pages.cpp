@@ -5,7 +5,7 @@
 namespace oriel {
 namespace {
 
-// light(group): of that group, by texel or point.
+// light(group): the group's light, by texel or point.
 template <class Light>
 void rescale_all_groups(const std::vector<Vec3>& whole, std::size_t groups, const Light& light) {
   std::vector<Vec3> parts(groups);
@@ -29,8 +29,8 @@ void write_texels(const TexelEstimate& estimate, Radiosity& light) {
     if (!page.direction.empty())
       page.direction[texel] = direction_of(estimate.direct_moments[i] + estimate.gathered_moments[i]);
     page.irradiance[texel] = glm::max(estimate.direct.value[i] + estimate.gathered.value[i], Vec3(0));
-    const bool kept = estimate.reuse && estimate.reuse->keeps(i);
-    const Vec3 edited = page.irradiance[texel] * (kept ? estimate.reuse->change(i) : 0);
+    const bool reused = estimate.reuse && estimate.reuse->reuses(i);
+    const Vec3 edited = page.irradiance[texel] * (reused ? estimate.reuse->change(i) : 0);
     page.standard_error[texel] =
         glm::sqrt(estimate.direct.variance[i] + estimate.gathered.variance[i] + edited * edited);
   }

@@ -33,13 +33,13 @@ void fields(Archive& archive, Arrival& a) {
 void add_up(std::vector<Arrival>& arrivals) {
   std::stable_sort(arrivals.begin(), arrivals.end(),
                    [](const Arrival& a, const Arrival& b) { return a.texel < b.texel; });
-  std::size_t kept = 0;
+  std::size_t merged = 0;
   for (std::size_t i = 0; i < arrivals.size(); ++i)
-    if (kept > 0 && arrivals[kept - 1].texel == arrivals[i].texel)
-      arrivals[kept - 1].light += arrivals[i].light, arrivals[kept - 1].moments += arrivals[i].moments;
+    if (merged > 0 && arrivals[merged - 1].texel == arrivals[i].texel)
+      arrivals[merged - 1].light += arrivals[i].light, arrivals[merged - 1].moments += arrivals[i].moments;
     else
-      arrivals[kept++] = arrivals[i];
-  arrivals.resize(kept);
+      arrivals[merged++] = arrivals[i];
+  arrivals.resize(merged);
   arrivals.shrink_to_fit();
 }
 
@@ -172,8 +172,8 @@ class LampWalk {
   // Samples the next ray by all lobes but the diffuse one, with the weight of the adjoint path.
   void scatter(const Hit& hit, SurfacePoint& surface) {
     const Vec3 wi = -ray_.direction;
-    const float kept = 1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, wi)));
-    const bool diffuse = surface.front && kept * max_component(surface.shade.diffuse) > 0;
+    const float diffuse_share = 1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, wi)));
+    const bool diffuse = surface.front && diffuse_share * max_component(surface.shade.diffuse) > 0;
     surface.shade.diffuse = Vec3(0);
     const Shading shading(surface, wi);
     const float u = sampler_.next1();

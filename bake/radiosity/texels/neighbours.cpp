@@ -86,8 +86,8 @@ class NeighbourFinder {
   }
 
   void add_from_world(std::uint32_t a, std::vector<std::pair<float, std::uint32_t>>& found) const {
-    const auto around = boost::geometry::index::intersects(reach_of(a));
-    for (auto it = rims_.qbegin(around); it != rims_.qend(); ++it)
+    const auto query = boost::geometry::index::intersects(reach_of(a));
+    for (auto it = rims_.qbegin(query); it != rims_.qend(); ++it)
       if (const std::uint32_t b = it->second; b != a && texels_.chart[b] != texels_.chart[a] && continues(a, b))
         found.emplace_back(distance2(a, b), b);
   }
@@ -144,11 +144,11 @@ Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& tex
         if (c.a < c.b || texels.chart[c.a] != texels.chart[c.b]) pairs.push_back(c);
     std::vector<Ray> bridges;
     for (const Candidate& c : pairs) bridges.push_back(finder.bridge(c));
-    std::vector<Vec3> passed(pairs.size());
-    transport.accel.transmittance(bridges, passed);
+    std::vector<Vec3> transmittance(pairs.size());
+    transport.accel.transmittance(bridges, transmittance);
     stage.count(bridges.size());
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (max_component(passed[i]) > 0) free[run].push_back(pairs[i]);
+      if (max_component(transmittance[i]) > 0) free[run].push_back(pairs[i]);
   }));
   TexelGraph graph;
   graph.neighbour.resize(texels.count());

@@ -85,8 +85,8 @@ class SamplePointFinder {
           !found.part.holds(surface.triangle, surface.barycentric, rays) ||
           !views_.sees(surface, texels.gap_reach(i), {seed_, stream, k}, eyes, rays))
         continue;
-      const bool ask = found.part.covered() || (!in_sight && (total + 1) * 16 <= tried);
-      const bool seen = ask && views_.any() && sees(surface, eyes, rays);
+      const bool needs_view = found.part.covered() || (!in_sight && (total + 1) * 16 <= tried);
+      const bool seen = needs_view && views_.any() && sees(surface, eyes, rays);
       if (found.part.covered() && !seen) continue;
       in_sight = in_sight || seen;
       if (hit_by_rays_) shade.push_back(shade_at(surface));

@@ -196,9 +196,9 @@ TEST(Ledger, NothingWithoutLight) {
 TEST(Ledger, SurfacesKeepWhatTheyDoNotReflect) {
   ShadePoint matt;
   matt.diffuse = Vec3(0.3f, 0.5f, 1), matt.f0 = Vec3(0), matt.f90 = 0;
-  EXPECT_LT(glm::length(share_kept(matt) - Vec3(0.7f, 0.5f, 0)), 1e-4f);
+  EXPECT_LT(glm::length(absorptance(matt) - Vec3(0.7f, 0.5f, 0)), 1e-4f);
   matt.coverage = 0.5f;
-  EXPECT_NEAR(share_kept(matt).r, 0.35f, 1e-4f);
+  EXPECT_NEAR(absorptance(matt).r, 0.35f, 1e-4f);
 }
 
 }  // namespace

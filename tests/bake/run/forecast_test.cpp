@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bake/cli/countdown.h"
-#include "bake/radiosity/estimators/work_left.h"
+#include "bake/radiosity/estimators/progress_estimate.h"
 
 namespace oriel {
 namespace {
@@ -50,19 +50,19 @@ TEST(ForecastTest, RefinementMayComeAgain) {
 }
 
 // Error falls as the inverse of the work: a goal of a quarter takes four times the work.
-TEST(WorkLeftTest, IsExactForAPower) {
-  WorkLeft left(0.25, 100, HUGE_VAL);
-  EXPECT_EQ(left.done(0, 1), 0);
-  EXPECT_NEAR(left.done(100, 100.0 / 200), 100.0 / 300, 1e-9);
-  EXPECT_NEAR(left.done(200, 100.0 / 300), 200.0 / 300, 1e-9);
-  EXPECT_EQ(left.done(300, 0.25), 1);
+TEST(ProgressEstimateTest, IsExactForAPower) {
+  ProgressEstimate progress(0.25, 100, HUGE_VAL);
+  EXPECT_EQ(progress.fraction(0, 1), 0);
+  EXPECT_NEAR(progress.fraction(100, 100.0 / 200), 100.0 / 300, 1e-9);
+  EXPECT_NEAR(progress.fraction(200, 100.0 / 300), 200.0 / 300, 1e-9);
+  EXPECT_EQ(progress.fraction(300, 0.25), 1);
 }
 
-TEST(WorkLeftTest, RaysMayEndBefore) {
-  WorkLeft left(1e-9, 100, 50);
-  EXPECT_NEAR(left.done(0, 1), 0, 1e-9);
-  EXPECT_NEAR(left.done(25, 1), 0.5, 1e-9) << "nothing fell";
-  EXPECT_NEAR(left.done(50, 1), 1, 1e-9);
+TEST(ProgressEstimateTest, RaysMayEndBefore) {
+  ProgressEstimate progress(1e-9, 100, 50);
+  EXPECT_NEAR(progress.fraction(0, 1), 0, 1e-9);
+  EXPECT_NEAR(progress.fraction(25, 1), 0.5, 1e-9) << "nothing fell";
+  EXPECT_NEAR(progress.fraction(50, 1), 1, 1e-9);
 }
 
 // Whatever the estimate does, what is told only falls, and is right before half of the time is over once the estimate

@@ -41,9 +41,9 @@ CellLevels chosen(const Listed& floor, const LightmapPage& page, const CellGoal&
   light.at_seam = at_seam;
   light.pages.push_back(page);
   light.visible.emplace_back(importance.size(), 1.0f);
-  const std::vector<char> crowded(importance.size());
-  return choose_cells(light.pages, find_cells(floor.atlas, floor.map, light, {importance, crowded, {}, {}}, goal),
-                      goal);
+  const std::vector<char> occlusion_heavy(importance.size());
+  return choose_cells(light.pages,
+                      find_cells(floor.atlas, floor.map, light, {importance, occlusion_heavy, {}, {}}, goal), goal);
 }
 
 std::size_t count(const CellLevels& levels, std::uint8_t level) {
@@ -103,12 +103,12 @@ std::vector<CellCandidate> on_an_edge(const Listed& floor, const Reflected& of_r
   for (const std::uint32_t t : floor.map[0].texel)
     reflected.push_back(Vec3(of_reflected(static_cast<float>(t % edge.width))));
   const std::vector<float> importance(n, 1.0f);
-  const std::vector<char> crowded(n, stands_close);
+  const std::vector<char> occlusion_heavy(n, stands_close);
   const std::vector<Vec3> exact(n, Vec3(0));
   Radiosity light;
   light.pages.push_back(edge);
   light.visible.emplace_back(n, 1.0f);
-  return find_cells(floor.atlas, floor.map, light, {importance, crowded, reflected, exact},
+  return find_cells(floor.atlas, floor.map, light, {importance, occlusion_heavy, reflected, exact},
                     {.error = 0.02, .floor = 10});
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bake/radiosity/estimators/diffusion.h"
-#include "bake/radiosity/estimators/part.h"
+#include "bake/radiosity/estimators/light_component.h"
 #include "formats/core/color.h"
 #include "tests/bake/radiosity/listed.h"
 
@@ -125,18 +125,19 @@ TEST(Filter, LightFromAllAroundStepsAtContactsAlone) {
 }
 
 // Refinement goes on where an error falls by more for its rays.
-TEST(Part, PaysWhereItsErrorIsGreaterForItsRays) {
+TEST(LightComponent, PaysWhereItsErrorIsGreaterForItsRays) {
   const std::vector<std::uint32_t> samples = {4, 4, 8}, all = {0, 1, 2};
-  Part dear{.samples = samples, .most = 8, .gain = 0.5, .rays = 1000, .squares = {0.01f, 0.02f, 0.03f}};
-  Part cheap = dear;
+  LightComponent dear{
+      .samples = samples, .max_samples = 8, .gain = 0.5, .rays = 1000, .squares = {0.01f, 0.02f, 0.03f}};
+  LightComponent cheap = dear;
   cheap.rays = 100;
   const std::vector<float> importance = {0.125f, 0.125f, 0.25f, 0.5f};
   dear.measure(all, importance), cheap.measure(all, importance);
   EXPECT_NEAR(dear.mean, 0.12, 1e-7);
   EXPECT_TRUE(cheap.pays_more_than(dear));
   EXPECT_FALSE(dear.pays_more_than(cheap));
-  EXPECT_NEAR(cheap.open(), 0.06, 1e-7) << "texel 2 has all its samples,";
-  EXPECT_NEAR(cheap.open_rays, 50, 1e-9) << "half of all";
+  EXPECT_NEAR(cheap.refinable(), 0.06, 1e-7) << "texel 2 has all its samples,";
+  EXPECT_NEAR(cheap.refinable_rays, 50, 1e-9) << "half of all";
 }
 
 }  // namespace

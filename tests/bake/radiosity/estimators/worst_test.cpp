@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-#include "bake/radiosity/estimators/part.h"
+#include "bake/radiosity/estimators/light_component.h"
 #include "tests/bake/radiosity/listed.h"
 
 namespace oriel {
@@ -31,8 +31,8 @@ struct Alike {
 TEST(WorstTexels, AreThoseThatGainMostForTheirRays) {
   Alike a(4);
   a.importance[0] *= 0.2f, a.squares[0] *= 0.2f;  // little seen
-  a.samples[1] = 64;                                   // dear
-  a.squares[2] = 0.02f;                                // better
+  a.samples[1] = 64;                              // dear
+  a.squares[2] = 0.02f;                           // better
   // What refining one whole texel takes away is 0.02, of the little seen one 0.004.
   EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.015}), (std::vector<std::uint32_t>{3}));
   EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.025}), (std::vector<std::uint32_t>{2, 3}));

@@ -1,5 +1,5 @@
 // What held-out pixels tell: the error that is there, whatever the bake says of itself.
-#include "bake/radiosity/certificate.h"
+#include "bake/radiosity/held_out_error.h"
 
 #include <gtest/gtest.h>
 
@@ -22,23 +22,23 @@ Baked certified_room(double error, double verify = 0) {
 }
 
 // Pixels that no bake knows.
-constexpr std::uint64_t kCertificateSeed = 0x5ee;
+constexpr std::uint64_t kHeldOutSeed = 0x5ee;
 
-std::vector<FramePixel> pixels_of(const Baked& b, const Transport& transport, std::uint64_t seed = kCertificateSeed) {
+std::vector<FramePixel> pixels_of(const Baked& b, const Transport& transport, std::uint64_t seed = kHeldOutSeed) {
   Context context;
   return *find_frame_pixels(transport, b.atlas, {sample_view_positions(transport, 1024, seed), 16}, seed, context);
 }
 
-Certificate certificate_of(const Baked& b, double asked, std::uint64_t rays, int threads = 0, Ask what = Ask::kPoints,
-                           std::uint64_t seed = kCertificateSeed) {
+HeldOutError held_out_error_of(const Baked& b, double asked, std::uint64_t rays, int threads = 0,
+                               HeldOutTarget what = HeldOutTarget::kPoints, std::uint64_t seed = kHeldOutSeed) {
   Context context;
   context.threads = threads;
   context.seed = seed;
   const Accel accel = *Accel::build(b.scene);
   const LightSet lights(b.scene);
   const Transport transport{accel, lights, {}};
-  return *certify({transport, b.atlas, b.texel_map}, b.radiosity.pages, pixels_of(b, transport, seed),
-                  {what, asked, rays}, context);
+  return *measure_held_out_error({transport, b.atlas, b.texel_map}, b.radiosity.pages, pixels_of(b, transport, seed),
+                                 {what, asked, rays}, context);
 }
 
 // Multiplies every second texel by 1 + off, the others by 1 - off.
@@ -71,14 +71,14 @@ double added_error(const Baked& good, const Baked& bad, std::uint64_t seed) {
 
 TEST(HeldOut, TellTheErrorThatIsThere) {
   const Baked clean = certified_room(0.02);
-  const Certificate good = certificate_of(clean, 0.02, kManyRays);
+  const HeldOutError good = held_out_error_of(clean, 0.02, kManyRays);
   EXPECT_GT(good.pixels, 64u);
   Baked b = clean;
   spoil(b, 0.4f);
   int held = 0;
   constexpr int kTimes = 5;  // an interval of 95 % may miss once
-  for (std::uint64_t seed = kCertificateSeed; seed < kCertificateSeed + kTimes; ++seed) {
-    const Certificate spoilt = certificate_of(b, 0.05, kManyRays, 0, Ask::kPoints, seed);
+  for (std::uint64_t seed = kHeldOutSeed; seed < kHeldOutSeed + kTimes; ++seed) {
+    const HeldOutError spoilt = held_out_error_of(b, 0.05, kManyRays, 0, HeldOutTarget::kPoints, seed);
     const double added = added_error(clean, b, seed);
     EXPECT_GT(added, 0.1) << "a third of it is left between texels";
     const double expected = std::hypot(added, good.relative_error);
@@ -98,7 +98,7 @@ TEST(HeldOut, NameTheWorst) {
       const std::uint32_t t = b.texel_map[p].fragments[b.texel_map[p].first[i]].triangle;
       if (t >= wrong && t < end) b.radiosity.pages[p].irradiance[b.texel_map[p].texel[i]] *= 2.0f;
     }
-  const Certificate c = certificate_of(b, 0.05, kManyRays);
+  const HeldOutError c = held_out_error_of(b, 0.05, kManyRays);
   ASSERT_GE(c.worst.size(), 3u) << "else there is nothing to look at";
   double share = 0, last = 1;
   for (const WorstPixel& w : c.worst) {
@@ -112,12 +112,12 @@ TEST(HeldOut, NameTheWorst) {
 
 // Texels of half a metre in a room of two are right and yet no light to look at.
 TEST(HeldOut, TellOfTexelsThatAreTooLarge) {
-  const auto certificate = [](float texel_m) {
-    return certificate_of(test::bake(test::room(test::Feature::kMatt), texel_m,
-                                     {.estimator = Estimator::kCached, .samples = 4096, .error = 0.02, .verify = 0}),
-                          0.02, kManyRays);
+  const auto held_out_error = [](float texel_m) {
+    return held_out_error_of(test::bake(test::room(test::Feature::kMatt), texel_m,
+                                        {.estimator = Estimator::kCached, .samples = 4096, .error = 0.02, .verify = 0}),
+                             0.02, kManyRays);
   };
-  const Certificate coarse = certificate(0.5f), fine = certificate(0.05f);
+  const HeldOutError coarse = held_out_error(0.5f), fine = held_out_error(0.05f);
   EXPECT_GT(coarse.error_low, 0.06);
   EXPECT_LT(fine.error_low, 0.03);
   EXPECT_LT(fine.relative_error, 0.5 * coarse.relative_error);
@@ -132,7 +132,7 @@ TEST(HeldOut, TellTexelsThatAreWrongFromThoseThatAreTooLarge) {
   };
   Baked b = bake_room(1);
   const Baked same = bake_room(2);
-  const Certificate& c = b.radiosity.report.certificate;
+  const HeldOutError& c = b.radiosity.report.held_out_error;
   EXPECT_GT(c.error_low, 0.06);
   EXPECT_GT(c.texel_error, 0);
   EXPECT_LT(c.texel_error, 0.06);
@@ -140,13 +140,14 @@ TEST(HeldOut, TellTexelsThatAreWrongFromThoseThatAreTooLarge) {
   EXPECT_EQ(b.radiosity.pages[0].irradiance, same.radiosity.pages[0].irradiance);
   for (LightmapPage& page : b.radiosity.pages)
     for (Vec3& light : page.irradiance) light *= 0.8f;
-  EXPECT_NEAR(certificate_of(b, 0.2, kManyRays, 0, Ask::kTexels).relative_error, std::hypot(0.2, c.texel_error), 0.02);
+  EXPECT_NEAR(held_out_error_of(b, 0.2, kManyRays, 0, HeldOutTarget::kTexels).relative_error,
+              std::hypot(0.2, c.texel_error), 0.02);
 }
 
 TEST(HeldOut, FewRaysGiveAWiderInterval) {
   Baked b = certified_room(0.05);
   spoil(b, 0.1f);
-  const Certificate few = certificate_of(b, 0.02, 1), many = certificate_of(b, 0.02, kManyRays);
+  const HeldOutError few = held_out_error_of(b, 0.02, 1), many = held_out_error_of(b, 0.02, kManyRays);
   EXPECT_GT(few.pixels, 0u) << "a first batch there is";
   EXPECT_LT(few.rays, many.rays / 10);
   EXPECT_GT(few.error_high - few.error_low, many.error_high - many.error_low);
@@ -154,7 +155,7 @@ TEST(HeldOut, FewRaysGiveAWiderInterval) {
 
 TEST(HeldOut, AreTheSameForAnyThreads) {
   const Baked b = certified_room(0.05);
-  const Certificate one = certificate_of(b, 0.05, 500'000, 1), two = certificate_of(b, 0.05, 500'000, 2);
+  const HeldOutError one = held_out_error_of(b, 0.05, 500'000, 1), two = held_out_error_of(b, 0.05, 500'000, 2);
   EXPECT_EQ(one.relative_error, two.relative_error);
   EXPECT_EQ(one.pixels, two.pixels);
   EXPECT_EQ(one.rays, two.rays);
@@ -162,8 +163,8 @@ TEST(HeldOut, AreTheSameForAnyThreads) {
 
 TEST(HeldOut, CostTheShareThatWasAskedFor) {
   const Baked without = certified_room(0.01), with = certified_room(0.01, 0.1);
-  EXPECT_EQ(without.radiosity.report.certificate.pixels, 0u);
-  EXPECT_GT(with.radiosity.report.certificate.pixels, 0u);
+  EXPECT_EQ(without.radiosity.report.held_out_error.pixels, 0u);
+  EXPECT_GT(with.radiosity.report.held_out_error.pixels, 0u);
   EXPECT_EQ(with.radiosity.report.refinements, 0);
   EXPECT_EQ(with.radiosity.pages[0].irradiance, without.radiosity.pages[0].irradiance) << "measuring changes nothing";
 }

@@ -1,4 +1,4 @@
-#include "bake/radiosity/certificate.h"
+#include "bake/radiosity/held_out_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,20 +13,20 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kPilotPaths = 32;               // of each estimate: they tell how many it gets
-constexpr double kRaysAPath = 8;                        // about, with those to lights
-constexpr std::uint32_t kDarkPaths = 8 * kPilotPaths;   // where a pilot that finds no light foretells nothing
-constexpr std::uint32_t kMostPaths = 5461;              // of each estimate
-constexpr std::size_t kBatch = 64, kMostPixels = 4096;  // pixels asked at a time and at most
-constexpr std::size_t kLeastCompared = 8;               // for an interval to mean anything
-constexpr double kWellKnown = 0.2;                      // of the squared error asked for
+constexpr std::uint32_t kCalibrationPaths = 32;              // of a pixel, which determine the number per estimate
+constexpr double kRaysAPath = 8;                             // about, with those to lights
+constexpr std::uint32_t kDarkPaths = 8 * kCalibrationPaths;  // where calibration paths may find no light
+constexpr std::uint32_t kMostPaths = 5461;                   // of each estimate
+constexpr std::size_t kBatch = 64, kMostPixels = 4096;       // pixels a batch, and at most
+constexpr std::size_t kLeastCompared = 8;                    // for an interval to mean anything
+constexpr double kPrecise = 0.2;                             // of the squared error requested
 
-struct HeldOut {
+struct HeldOutPixel {
   const FramePixel* pixel = nullptr;
   std::size_t number = 0;                     // of the pixel
   std::size_t index = 0;                      // of the texel that it reads most of, into TexelMapPage::texel; kTexels
   DVec3 baked{0};                             // cd/m²
-  DVec3 floor2{0};                            // of its eye
+  DVec3 floor2{0};                            // of its view
   std::array<DVec3, kEstimates> estimates{};  // cd/m², independent of each other
   std::uint32_t paths = 0;                    // of all of them
 
@@ -34,7 +34,7 @@ struct HeldOut {
   double square() const { return squared_error(baked, estimates, floor2); }
 };
 
-// With the digits of a half: the pack scales halves so that all light that matters has them.
+// Rounds the mantissa to that of a half: the pack scales halves so that exponents suffice.
 float as_half(float x) {
   int exponent = 0;
   const float mantissa = std::frexp(x, &exponent);
@@ -55,16 +55,16 @@ DVec3 read_light(std::span<const LightmapPage> pages, const FramePixel& pixel) {
   return {as_half(light.r), as_half(light.g), as_half(light.b)};
 }
 
-std::vector<HeldOut> hold_out(std::span<const TexelMapPage> map, std::span<const LightmapPage> pages,
-                              std::span<const FramePixel> pixels, Ask what) {
+std::vector<HeldOutPixel> hold_out(std::span<const TexelMapPage> map, std::span<const LightmapPage> pages,
+                                   std::span<const FramePixel> pixels, HeldOutTarget target) {
   const auto shown = [&](const FramePixel& p, const DVec3& light) { return DVec3(p.transfer) * light; };
   const std::vector<DVec3> floors2 =
       frame_floors2(pixels, [&](std::size_t i) { return shown(pixels[i], read_light(pages, pixels[i])); });
-  std::vector<HeldOut> chosen;
+  std::vector<HeldOutPixel> chosen;
   for (std::size_t i = 0; i < pixels.size() && chosen.size() < kMostPixels; ++i) {
     const FramePixel& p = pixels[i];
-    HeldOut h{&p, i, 0, shown(p, read_light(pages, p)) + DVec3(p.emitted), floors2[p.view]};
-    if (what == Ask::kTexels) {
+    HeldOutPixel h{&p, i, 0, shown(p, read_light(pages, p)) + DVec3(p.emitted), floors2[p.view]};
+    if (target == HeldOutTarget::kTexels) {
       const std::uint32_t most =
           p.texel[static_cast<std::size_t>(std::max_element(p.share.begin(), p.share.end()) - p.share.begin())];
       if (pages[p.page].state[most] != TexelState::kValid) continue;
@@ -79,40 +79,40 @@ std::vector<HeldOut> hold_out(std::span<const TexelMapPage> map, std::span<const
 
 class Verifier {
  public:
-  Verifier(const LightmapScene& scene, const Question& question, Context& context)
-      : t_(scene.transport), question_(question), asked2_(question.error * question.error), context_(context) {
-    of_texels_.reserve(seeds_.size());
+  Verifier(const LightmapScene& scene, const HeldOutQuery& query, Context& context)
+      : t_(scene.transport), query_(query), goal2_(query.error * query.error), context_(context) {
+    texel_paths_.reserve(seeds_.size());
     for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k] = mix64(context.seed + seeds::kHeldOutPaths + k);
-    for (const std::uint64_t seed : seeds_) of_texels_.emplace_back(scene, question.eyes, false, seed, context);
+    for (const std::uint64_t seed : seeds_) texel_paths_.emplace_back(scene, query.eyes, false, seed, context);
   }
 
-  // How many paths an estimate may have, so that a batch stays within the rays.
-  Status limit_paths(std::span<HeldOut> first) {
-    ORIEL_TRY_VOID(ask(first, kPilotPaths));
+  // Sets the limit on paths per estimate so that a batch stays within the rays.
+  Status limit_paths(std::span<HeldOutPixel> first) {
+    ORIEL_TRY_VOID(measure(first, kCalibrationPaths));
     std::uint64_t paths = 0;
-    for (const HeldOut& h : first) paths += h.paths;
+    for (const HeldOutPixel& h : first) paths += h.paths;
     const double rays_a_path = static_cast<double>(rays_) / static_cast<double>(std::max<std::uint64_t>(paths, 1));
     const double fit =
-        static_cast<double>(question_.rays_at_most) / (rays_a_path * kEstimates * static_cast<double>(kBatch));
-    most_paths_ = static_cast<std::uint32_t>(std::clamp(fit, double{kPilotPaths}, double{kMostPaths}));
+        static_cast<double>(query_.rays_at_most) / (rays_a_path * kEstimates * static_cast<double>(kBatch));
+    most_paths_ = static_cast<std::uint32_t>(std::clamp(fit, double{kCalibrationPaths}, double{kMostPaths}));
     return {};
   }
 
-  Status ask(std::span<HeldOut> batch) { return ask(batch, most_paths_); }
+  Status measure(std::span<HeldOutPixel> batch) { return measure(batch, most_paths_); }
   std::uint64_t rays() const { return rays_; }
 
  private:
-  Status ask(std::span<HeldOut> batch, std::uint32_t most) {
-    UnitLoop loop{.stage = "certificate", .count = batch.size(), .rays = kRaysAPath * kPilotPaths};
+  Status measure(std::span<HeldOutPixel> batch, std::uint32_t most) {
+    UnitLoop loop{.stage = "certificate", .count = batch.size(), .rays = kRaysAPath * kCalibrationPaths};
     loop.inputs = [&](std::size_t k, Archive& key) {
       FramePixel pixel = *batch[k].pixel;
-      key(pixel, batch[k].number, batch[k].index, batch[k].baked, batch[k].floor2, question_.what, asked2_, most);
+      key(pixel, batch[k].number, batch[k].index, batch[k].baked, batch[k].floor2, query_.target, goal2_, most);
     };
     loop.compute = [&](std::size_t k) {
-      HeldOut& h = batch[k];
+      HeldOutPixel& h = batch[k];
       std::uint64_t traced = 0;
-      const TexelSums pilot = sums(kEstimates, h, kPilotPaths, traced);
-      const std::uint32_t wanted = paths_for(h, pilot, most);
+      const TexelSums calibration = sums(kEstimates, h, kCalibrationPaths, traced);
+      const std::uint32_t wanted = paths_for(h, calibration, most);
       h.paths = 0;
       for (std::size_t e = 0; e < kEstimates; ++e) {
         const TexelSums own = sums(e, h, wanted, traced);
@@ -125,11 +125,11 @@ class Verifier {
     return parallel_units({context_, &rays_}, loop);
   }
 
-  // which: one of the estimates, or kEstimates for the foretelling.
-  TexelSums sums(std::size_t which, const HeldOut& h, std::uint32_t paths, std::uint64_t& traced) const {
+  // which: an estimate, or kEstimates for the calibration.
+  TexelSums sums(std::size_t which, const HeldOutPixel& h, std::uint32_t paths, std::uint64_t& traced) const {
     TexelSums own;
-    if (question_.what == Ask::kTexels) {
-      of_texels_[which].add({h.pixel->page, h.index}, {0, paths}, own, traced);
+    if (query_.target == HeldOutTarget::kTexels) {
+      texel_paths_[which].add({h.pixel->page, h.index}, {0, paths}, own, traced);
       return own;
     }
     const SurfacePoint point = point_on_side(t_.accel.scene(), h.pixel->triangle, h.pixel->barycentric);
@@ -141,35 +141,36 @@ class Verifier {
     return own;
   }
 
-  // The least error in the mean of all pixels for a number of rays is where a pixel's noise equals its error, about.
-  std::uint32_t paths_for(const HeldOut& h, const TexelSums& pilot, std::uint32_t most) const {
-    const DVec3 transfer(h.pixel->transfer), variance = transfer * transfer * pilot.variance() * double(pilot.count);
+  // The error of the mean over pixels is about minimal for its rays where a pixel's noise equals its error.
+  std::uint32_t paths_for(const HeldOutPixel& h, const TexelSums& calibration, std::uint32_t most) const {
+    const DVec3 transfer(h.pixel->transfer),
+        variance = transfer * transfer * calibration.variance() * double(calibration.count);
     const double relative = relative_square(variance, h.baked * h.baked, h.floor2);
     const bool dark = luminance(Vec3(h.baked)) < luminance(Vec3(glm::sqrt(h.floor2)));
-    std::uint32_t paths = dark ? std::min(most, kDarkPaths) : kPilotPaths;
-    while (paths < most && paths * asked2_ < relative) paths = std::min(2 * paths, most);
+    std::uint32_t paths = dark ? std::min(most, kDarkPaths) : kCalibrationPaths;
+    while (paths < most && paths * goal2_ < relative) paths = std::min(2 * paths, most);
     return paths;
   }
 
   const Transport& t_;
-  const Question question_;
-  double asked2_;
+  const HeldOutQuery query_;
+  double goal2_;
   Context& context_;
-  std::array<std::uint64_t, kEstimates + 1> seeds_;  // of the estimates and the foretelling
-  std::vector<TexelPaths> of_texels_;                // likewise
-  std::uint32_t most_paths_ = kPilotPaths;
+  std::array<std::uint64_t, kEstimates + 1> seeds_;  // of the estimates and the calibration
+  std::vector<TexelPaths> texel_paths_;              // likewise
+  std::uint32_t most_paths_ = kCalibrationPaths;
   std::atomic<std::uint64_t> rays_{0};
 };
 
 // The ratio Σ (baked - path) / Σ path in luminance, and 1.96 standard errors of it.
-void state_bias(std::span<const HeldOut> samples, Certificate& c) {
-  const auto path = [](const HeldOut& h) { return double{luminance(Vec3(h.mean()))}; };
-  const auto off = [&](const HeldOut& h) { return luminance(Vec3(h.baked)) - path(h); };
+void state_bias(std::span<const HeldOutPixel> samples, HeldOutError& c) {
+  const auto path = [](const HeldOutPixel& h) { return double{luminance(Vec3(h.mean()))}; };
+  const auto off = [&](const HeldOutPixel& h) { return luminance(Vec3(h.baked)) - path(h); };
   double difference = 0, paths = 0, squares = 0;
-  for (const HeldOut& h : samples) difference += off(h), paths += path(h);
+  for (const HeldOutPixel& h : samples) difference += off(h), paths += path(h);
   if (!(paths > 0)) return;
   c.bias = difference / paths;
-  for (const HeldOut& h : samples) squares += std::pow(off(h) - c.bias * path(h), 2);
+  for (const HeldOutPixel& h : samples) squares += std::pow(off(h) - c.bias * path(h), 2);
   c.bias_interval = 1.96 * std::sqrt(squares) / paths;
 }
 
@@ -177,22 +178,22 @@ struct MeanSquare {
   double mean = 0, interval = 0;  // 95 %: mean ± interval
 };
 
-MeanSquare mean_square(std::span<const HeldOut> samples) {
+MeanSquare mean_square(std::span<const HeldOutPixel> samples) {
   double sum = 0, squares = 0;
   const auto n = static_cast<double>(samples.size());
-  for (const HeldOut& h : samples) sum += h.square();
+  for (const HeldOutPixel& h : samples) sum += h.square();
   const double mean = sum / n;
-  for (const HeldOut& h : samples) squares += std::pow(h.square() - mean, 2);
+  for (const HeldOutPixel& h : samples) squares += std::pow(h.square() - mean, 2);
   return {mean, 1.96 * std::sqrt(squares / (n * std::max(1.0, n - 1)))};
 }
 
-// What holds most of the squared error: a mean may be that of a few crevices.
-std::vector<WorstPixel> worst_of(std::span<const HeldOut> samples, const Scene& scene) {
+// The pixels with most of the squared error: a mean may be due to a few crevices.
+std::vector<WorstPixel> worst_of(std::span<const HeldOutPixel> samples, const Scene& scene) {
   constexpr std::size_t kMost = 8;
   constexpr double kLeastShare = 0.01;
   std::vector<WorstPixel> worst;
-  double sum = 0, off = 0;  // off: without the pixels whose noise makes less than nothing of it, or shares pass 100 %
-  for (const HeldOut& h : samples) {
+  double sum = 0, off = 0;  // off: without negative squares, which are noise, so that shares stay below 1
+  for (const HeldOutPixel& h : samples) {
     const double square = h.square();
     sum += square, off += std::max(square, 0.0);
     worst.push_back({h.pixel->triangle, point_on(scene, h.pixel->triangle, h.pixel->barycentric),
@@ -217,22 +218,22 @@ double squared_error(const DVec3& baked, const std::array<DVec3, kEstimates>& es
   return sum / kEstimates;
 }
 
-Result<Certificate> certify(const LightmapScene& scene, std::span<const LightmapPage> pages,
-                            std::span<const FramePixel> pixels, const Question& question, Context& context) {
-  Certificate c;
-  std::vector<HeldOut> held_out = hold_out(scene.map, pages, pixels, question.what);
-  Verifier verifier(scene, question, context);
-  std::span<const HeldOut> compared;
+Result<HeldOutError> measure_held_out_error(const LightmapScene& scene, std::span<const LightmapPage> pages,
+                                            std::span<const FramePixel> pixels, const HeldOutQuery& query,
+                                            Context& context) {
+  HeldOutError c;
+  std::vector<HeldOutPixel> held_out = hold_out(scene.map, pages, pixels, query.target);
+  Verifier verifier(scene, query, context);
+  std::span<const HeldOutPixel> compared;
   while (compared.size() < held_out.size()) {
     const auto batch =
         std::span(held_out).subspan(compared.size()).first(std::min(kBatch, held_out.size() - compared.size()));
     if (compared.empty()) ORIEL_TRY_VOID(verifier.limit_paths(batch));
-    ORIEL_TRY_VOID(verifier.ask(batch));
-    for (const HeldOut& h : batch) c.paths += h.paths;
+    ORIEL_TRY_VOID(verifier.measure(batch));
+    for (const HeldOutPixel& h : batch) c.paths += h.paths;
     compared = std::span(held_out).first(compared.size() + batch.size());
-    if (verifier.rays() >= question.rays_at_most) break;
-    if (compared.size() >= kLeastCompared &&
-        mean_square(compared).interval <= kWellKnown * question.error * question.error)
+    if (verifier.rays() >= query.rays_at_most) break;
+    if (compared.size() >= kLeastCompared && mean_square(compared).interval <= kPrecise * query.error * query.error)
       break;
   }
   c.rays = verifier.rays();

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bake/radiosity/estimators/direct_light.h"
-#include "bake/radiosity/estimators/direct_pilot.h"
+#include "bake/radiosity/estimators/light_calibration.h"
 #include "tests/bake/radiosity/listed.h"
 
 namespace oriel::test {
@@ -38,7 +38,7 @@ struct Lit {
   const ExtraSamplePoints sample_points = listed.sample_points(transport);
 };
 
-TEST(Pilot, TellsWhatIsSeenWhollyOrNotAtAll) {
+TEST(LightCalibration, TellsWhatIsSeenWhollyOrNotAtAll) {
   Lit lit(two_lamps(true));
   const DirectSums few = lit.direct(2);
   const std::uint64_t rays = lit.rays;
@@ -54,7 +54,7 @@ TEST(Pilot, TellsWhatIsSeenWhollyOrNotAtAll) {
 }
 
 // The upper lamp shines through the rim of the lower one's shadow: there all samples are traced.
-TEST(Pilot, LeavesPenumbraeToAllSamples) {
+TEST(LightCalibration, LeavesPenumbraeToAllSamples) {
   Lit lit(two_lamps(false));
   (void)lit.direct(2);
   const std::uint64_t rays = lit.rays;
@@ -62,19 +62,20 @@ TEST(Pilot, LeavesPenumbraeToAllSamples) {
   EXPECT_GT(lit.rays, 2 * rays);
 }
 
-TEST(Pilot, SharesSamplesOutByWhatTheyTakeOffTheVariance) {
-  LightPilot pilot{.tallies = {}, .all = false, .none = false, .noise = 1};
-  EXPECT_EQ(samples_of(pilot, 1, 32), 32u) << "the noisiest";
-  pilot.noise = std::pow(2.0f, -2.4f);
-  EXPECT_EQ(samples_of(pilot, 1, 32), 32u);
-  pilot.noise = std::pow(2.0f, -2.6f);
-  EXPECT_EQ(samples_of(pilot, 1, 32), 16u) << "a half of the samples: 2^2.5 times as much to gain from one more";
-  pilot.noise = 0;
-  EXPECT_EQ(samples_of(pilot, 1, 32), 4u) << "at least";
-  pilot.all = true;
-  EXPECT_EQ(samples_of(pilot, 1, 32), 32u) << "closed forms at all points, without rays";
-  pilot.all = false, pilot.none = true;
-  EXPECT_EQ(samples_of(pilot, 1, 32), 2u);
+TEST(LightCalibration, SharesSamplesOutByWhatTheyTakeOffTheVariance) {
+  LightCalibration calibration{.tallies = {}, .all_visible = false, .all_occluded = false, .noise = 1};
+  EXPECT_EQ(sample_count(calibration, 1, 32), 32u) << "the noisiest";
+  calibration.noise = std::pow(2.0f, -2.4f);
+  EXPECT_EQ(sample_count(calibration, 1, 32), 32u);
+  calibration.noise = std::pow(2.0f, -2.6f);
+  EXPECT_EQ(sample_count(calibration, 1, 32), 16u)
+      << "a half of the samples: 2^2.5 times as much to gain from one more";
+  calibration.noise = 0;
+  EXPECT_EQ(sample_count(calibration, 1, 32), 4u) << "at least";
+  calibration.all_visible = true;
+  EXPECT_EQ(sample_count(calibration, 1, 32), 32u) << "closed forms at all points, without rays";
+  calibration.all_visible = false, calibration.all_occluded = true;
+  EXPECT_EQ(sample_count(calibration, 1, 32), 2u);
 }
 
 // A floor of 3 m on which boards cast soft shadows of two lamps.
@@ -91,7 +92,7 @@ Scene lamps_over_boards(float faint) {
   return parts.finish();
 }
 
-TEST(Pilot, GivesFaintLampsFewerRaysForTheSameLight) {
+TEST(LightCalibration, GivesFaintLampsFewerRaysForTheSameLight) {
   Lit bright(lamps_over_boards(100)), faint(lamps_over_boards(1));
   (void)bright.direct(32);
   const std::uint64_t rays = bright.rays;
