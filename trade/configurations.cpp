@@ -135,8 +135,6 @@ class Planner {
     add("mover lights", "harmonics", {}, {{"--mover-lights", "harmonics"}});
     if (!quick_) add("mover lights", "unshadowed", {}, {{"--mover-lights", "unshadowed"}});
     for (const std::string& lights : either({"0"}, {"0", "32", "512"})) add("shade", lights, {}, {{"--shade", lights}});
-    add("shade", "300, merged passes", {}, {{"--shade", "300"}, {"--shade-work", "merged"}, {"--shade-pixels", "all"}},
-        "many lights (Barczak 2006)");
   }
 
   // Ways to show a lamp elsewhere.

@@ -316,7 +316,7 @@ Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context
   for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(context, lit));
   take_by_textures(context);
   if (shaded) {
-    const ShadeTarget target{of_scene_.surfaces, of_scene_.change, of_scene_.change_target, targets_};
+    const LitTarget target{of_scene_.surfaces, of_scene_.change, of_scene_.change_target, targets_};
     ORIEL_TRY_VOID(shade_.draw(context, movers, target));
   }
   known_ = std::move(now);

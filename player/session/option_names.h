@@ -32,11 +32,6 @@ inline constexpr Named<MoverLights> kMoverLights[] = {{"harmonics", MoverLights:
 inline constexpr Named<MoverShadows> kMoverShadows[] = {{"maps", MoverShadows::kMaps},
                                                         {"textures", MoverShadows::kTextures}};
 
-inline constexpr Named<ShadeWork> kShadeWorks[] = {{"cells", ShadeWork::kCells},
-                                                   {"each", ShadeWork::kEachLight},
-                                                   {"few", ShadeWork::kFewPixels},
-                                                   {"lists", ShadeWork::kLists},
-                                                   {"merged", ShadeWork::kMerged}};
 inline constexpr Named<bool> kShadePixels[] = {{"all", true}, {"half", false}};
 
 inline constexpr Named<LiveMode> kLiveModes[] = {
