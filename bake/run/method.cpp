@@ -18,7 +18,6 @@ Status settle_passes(const Given& given, BakeOptions& o) {
   if (o.radiosity.bounces != 0)
     return clash(kPasses, "--bounces", "all: light by way of mirrors is followed there alone");
   if (o.radiosity.hidden == Hidden::kBlack) return clash(kPasses, "--hidden-black", "none");
-  if (o.vertex_light) return clash(kPasses, "--radiosity vertices", "texture");
   if (o.import.day.wanted) return clash(kPasses, "--day", "lamps: light of hours is switched, not drawn");
   if (given.has("--light-groups") && o.light_groups.by != LightGrouping::kOff)
     return clash(kPasses, "--light-groups", "off: what is baked is not by group");
