@@ -50,12 +50,9 @@ struct ShadeSettings {
 };
 inline constexpr std::uint32_t kMostShadeLights = 1024;
 
-// What the bake knows of a lamp that has moved: as much as its live lights say (fitted), all of it, what live lights
-// give now less what they gave there being added (differential), or nothing (only).
-enum class LiveMode { kFitted, kDifferential, kOnly };
+// Light of lamps that have moved.
 struct LiveSettings {
   LiveOptions lights;
-  LiveMode mode = LiveMode::kFitted;
   bool in_background = false;  // light of lamps that moved comes later, coarse before fine; else a frame waits for it
 
   bool operator==(const LiveSettings&) const = default;

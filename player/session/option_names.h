@@ -34,9 +34,6 @@ inline constexpr Named<MoverShadows> kMoverShadows[] = {{"maps", MoverShadows::k
 
 inline constexpr Named<bool> kShadePixels[] = {{"all", true}, {"half", false}};
 
-inline constexpr Named<LiveMode> kLiveModes[] = {
-    {"differential", LiveMode::kDifferential}, {"fitted", LiveMode::kFitted}, {"only", LiveMode::kOnly}};
-
 inline constexpr Named<LiveIndirect> kLiveIndirect[] = {{"lights", LiveIndirect::kLights},
                                                         {"texels", LiveIndirect::kTexels}};
 
