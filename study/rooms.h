@@ -13,5 +13,6 @@ std::span<const gpu::ShaderSource> shader_sources();
 // A room's command: its options, and what draws or measures with them. arguments outlive it.
 ToolCommand diefenbach1997_command(ShownArguments& arguments);
 ToolCommand herf1997_command(ShownArguments& arguments, Herf1997Settings& settings);
+ToolCommand barczak2006_command(ShownArguments& arguments);
 
 }  // namespace oriel::study

@@ -127,8 +127,6 @@ class Planner {
     add("mover lights", "harmonics", {}, {{"--mover-lights", "harmonics"}});
     if (!quick_) add("mover lights", "unshadowed", {}, {{"--mover-lights", "unshadowed"}});
     for (const std::string& lights : either({"0"}, {"0", "32", "512"})) add("shade", lights, {}, {{"--shade", lights}});
-    add("shade", "300, merged passes", {}, {{"--shade", "300"}, {"--shade-work", "merged"}, {"--shade-pixels", "all"}},
-        "many lights (Barczak 2006)");
   }
 
   // Ways to show a lamp elsewhere.
@@ -139,15 +137,9 @@ class Planner {
     }
     const std::size_t first = configurations_.size();
     const Settings grouped{{"--light-groups", "each"}}, there{{"--move", move_}};
-    const auto live = [&](Settings more) {
-      more["--move"] = move_;
-      return more;
-    };
     add("moved lamp", "baked anew", there, {});
-    add("moved lamp", "live, fitted", grouped, live({{"--live", "fitted"}}));
-    add("moved lamp", "live, differential", grouped, live({{"--live", "differential"}}));
-    add("moved lamp", "live alone", grouped, live({{"--live", "only"}}));
-    add("moved lamp", "live alone, by lights", grouped, live({{"--live", "only"}, {"--live-indirect", "lights"}}),
+    add("moved lamp", "live", grouped, there);
+    add("moved lamp", "live, by lights", grouped, {{"--move", move_}, {"--live-indirect", "lights"}},
         "instant radiosity (Keller 1997)");
     add("moved lamp", "switched off", grouped, {{"--light", move_.substr(0, move_.find('=')) + "=off"}});
     add("moved lamp", "not followed", {}, {});

@@ -181,8 +181,7 @@ void assemble_scene(const Scene& scene, MaterialMaps maps, AssembledMesh mesh, P
 std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<const std::uint32_t> triangles) {
   std::vector<std::uint32_t> indices;
   for (const std::uint32_t t : triangles)
-    for (std::uint32_t i = 0; i < (mesh.index_count.empty() ? 3 : mesh.index_count[t]); ++i)
-      indices.push_back(mesh.mesh.indices[mesh.first_index[t] + i]);
+    for (std::uint32_t i = 0; i < 3; ++i) indices.push_back(mesh.mesh.indices[mesh.first_index[t] + i]);
   return indices;
 }
 

@@ -11,9 +11,8 @@ namespace oriel {
 
 struct AssembledMesh {
   Mesh mesh;
-  std::vector<std::uint32_t> scene_vertex;   // by mesh vertex: into the scene's vertex arrays
-  std::vector<std::uint32_t> first_index;    // by scene triangle: its entries in mesh.indices start here
-  std::vector<std::uint32_t> index_count{};  // likewise: so many, where triangles are divided; empty: three each
+  std::vector<std::uint32_t> scene_vertex;  // by mesh vertex: into the scene's vertex arrays
+  std::vector<std::uint32_t> first_index;   // by scene triangle: its entries in mesh.indices start here
 };
 
 // A scene's triangles in mesh.indices.

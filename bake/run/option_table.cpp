@@ -85,12 +85,6 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "Where light changes within texels, at contacts and edges of shadows, the cells between them are divided into "
        "up to so many steps a side; 1: never",
        detail_steps(o), Use::kRare, "detail", "notes/radiosity.md"},
-      {"--radiosity", kLightmap,
-       "How diffuse light is shown: texture (the lightmap), or as Bastos et al. 1999 had it too, vertices (colours of "
-       "a "
-       "mesh that is divided until it shows the lightmap to that error, --error where none is given, or to a texel). "
-       "The lightmap stays in the pack",
-       radiosity_form(o), Use::kRare, "radiosity", "notes/radiosity.md"},
       {"--directional", kLightmap,
        "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material has a "
        "normal map), on, off. Costs a tenth more variance and about 4 bytes a texel",

@@ -114,15 +114,6 @@ OptionValue views(BakeOptions& o) {
           }};
 }
 
-OptionValue radiosity_form(BakeOptions& o) {
-  const auto text = [&o]() -> std::string {
-    if (!o.vertex_light) return "texture";
-    return o.vertex_error > 0 ? "vertices:" + share_text(o.vertex_error) : "vertices";
-  };
-  return {"texture|vertices[:SHARE]", [&o](const std::string& typed) { return parse_radiosity(typed, o); }, text,
-          [text] { return Json(text()); }};
-}
-
 OptionValue eyes(BakeOptions& o) {
   const auto name = [&o] {
     return o.eyes.source == EyeSource::kWalk ? "walk" : o.eyes.source == EyeSource::kBox ? "box" : "file";

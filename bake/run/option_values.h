@@ -22,7 +22,6 @@ OptionValue samples(BakeOptions& o);
 OptionValue hidden_black(BakeOptions& o);
 OptionValue texel_means(BakeOptions& o);
 OptionValue detail_steps(BakeOptions& o);
-OptionValue radiosity_form(BakeOptions& o);
 OptionValue parts(BakeOptions& o);  // --only
 OptionValue views(BakeOptions& o);
 OptionValue eyes(BakeOptions& o);

@@ -70,18 +70,6 @@ Result<EyeOptions> parse_eye_source(const std::string& text) {
   return eyes;
 }
 
-Status parse_radiosity(const std::string& text, BakeOptions& options) {
-  const std::string vertices = "vertices";
-  options.vertex_light = text.starts_with(vertices);
-  options.vertex_error = 0;
-  if (text == "texture" || text == vertices) return {};
-  if (!text.starts_with(vertices + ":"))
-    return fail(ErrorCode::kUsage, "", "found '{}', expected texture, vertices, or vertices:ERROR such as vertices:5%",
-                text);
-  ORIEL_TRY(options.vertex_error, parse_fraction(text.substr(vertices.size() + 1)));
-  return {};
-}
-
 Result<Vec3> parse_color(const std::string& text) {
   Vec3 color(0);
   const char* at = text.data();

@@ -56,8 +56,6 @@ struct BakeOptions {
   LightGroupOptions light_groups;
   RadiosityOptions radiosity;  // radiosity.directional follows from the next
   Directional directional = Directional::kAuto;
-  bool vertex_light = false;  // diffuse light as vertex colours, beside the lightmap
-  double vertex_error = 0;    // of these (vertex_light.h); 0: radiosity.error
   Method method = Method::kOriel;
   ReflectorOptions reflectors;
   WaysWanted ways = WaysWanted::kAuto;
@@ -93,8 +91,6 @@ Result<double> parse_duration(const std::string& text);
 Result<double> parse_fraction(const std::string& text);
 // "10%" or "off" as a fraction, >= 0. Error kUsage.
 Result<double> parse_verify(const std::string& text);
-// "texture", "vertices" or "vertices:5%", set in vertex_light and vertex_error. Error kUsage.
-Status parse_radiosity(const std::string& text, BakeOptions& options);
 // "planned", "planned:8", "hemisphere" or "hemisphere:64": the number is that of maps of a reflector element, 1 to
 // 4096, and set in planned and views. Error kUsage.
 Status parse_views(const std::string& text, BakeOptions& options);

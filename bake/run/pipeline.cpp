@@ -18,7 +18,6 @@
 #include "bake/run/start.h"
 #include "bake/run/time_budget.h"
 #include "bake/run/unlit.h"
-#include "bake/run/vertex_light.h"
 #include "bake/run/visibility.h"
 #include "formats/core/color.h"
 
@@ -81,7 +80,6 @@ class Bake {
     ORIEL_TRY_VOID(bake_lightmap());
     ORIEL_TRY_VOID(keep_energy_ledger());
     ORIEL_TRY_VOID(weigh_unlit());
-    ORIEL_TRY_VOID(light_vertices());
     ORIEL_TRY_VOID(capture_reflections());
     ORIEL_TRY_VOID(make_light_field());
     ORIEL_TRY_VOID(assemble());
@@ -244,14 +242,6 @@ class Bake {
     return {};
   }
 
-  Status light_vertices() {
-    if (!options_.vertex_light) return {};
-    return timed_("vertices", [&](auto&) -> Status {
-      vertices_ = light_pack_vertices(task(), mesh_, result_.omissions);
-      return {};
-    });
-  }
-
   Status capture_reflections() {
     if (!options_.with_radiance) {
       result_.omissions.emplace_back("radiance maps: left out by --only");
@@ -336,7 +326,7 @@ class Bake {
     pack().plan = plan_json({scene(), prepared_.atlas, prepared_.sides, result_.radiosity, result_.ledger, pack(),
                              result_.omissions, lights_->power(), reflections_, movers_, visibility_,
                              options_.radiosity.estimator == Estimator::kCached, asked, start_, result_.findings,
-                             result_.warnings, vertices_});
+                             result_.warnings});
     pack().provenance = provenance_json(options_, context_.seed, prepared_.imported->inputs);
     judge_time(options_, budget_, result_.times, context_, result_.shortfalls);
     const std::size_t warned = result_.warnings.size();
@@ -375,7 +365,6 @@ class Bake {
   std::vector<std::uint64_t> reflected_triangles_;  // by reflector
   PlannedReflections planned_;
   AssembledMesh mesh_;
-  std::optional<VertexLightReport> vertices_;
   VisibilityReport visibility_;
   std::vector<MoverReport> movers_;
   float unlit_white_ = 1;

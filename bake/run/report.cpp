@@ -290,17 +290,6 @@ BakeResult::BakeResult(BakeResult&&) noexcept = default;
 BakeResult& BakeResult::operator=(const BakeResult&) = default;
 BakeResult& BakeResult::operator=(BakeResult&&) noexcept = default;
 
-static Json vertices_json(const std::optional<VertexLightReport>& r) {
-  if (!r) return nullptr;
-  return {{"error_asked", r->asked},
-          {"error", r->error},
-          {"triangles_before", r->triangles_before},
-          {"triangles", r->triangles},
-          {"vertices", r->vertices},
-          {"coarse_triangles", r->coarse},
-          {"full", r->full}};
-}
-
 std::string plan_json(const BakeFacts& f) {
   const Json json = {
       {"scene",
@@ -330,7 +319,6 @@ std::string plan_json(const BakeFacts& f) {
         {"reuse", reuse_json(f.radiosity.reuse)},
         {"seams", seams_json(f.radiosity.seams)},
         {"detail", detail_json(f.radiosity.detail)},
-        {"vertices", vertices_json(f.vertices)},
         {"mean_lux", rgb(f.radiosity.mean)},
         {"max_lux", rgb(f.radiosity.max)},
         {"relative_standard_error", f.radiosity.relative_error},

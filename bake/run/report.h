@@ -8,7 +8,6 @@
 #include "bake/run/pipeline.h"
 #include "bake/run/reflections.h"
 #include "bake/run/start.h"
-#include "bake/run/vertex_light.h"
 #include "bake/run/visibility.h"
 
 namespace oriel {
@@ -31,7 +30,6 @@ struct BakeFacts {
   Start start = Start::kOfScene;
   const std::vector<std::string>& findings;
   const std::vector<Warning>& warnings;
-  const std::optional<VertexLightReport>& vertices;
 };
 
 std::string plan_json(const BakeFacts& facts);

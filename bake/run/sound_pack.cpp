@@ -71,10 +71,9 @@ void remove_walk_grids(Pack& pack) {
   pack.reflected_sets = {};
 }
 
-const std::array<Removable, 15>& removables() {
-  static const std::array<Removable, 15> kAll = {{
+const std::array<Removable, 14>& removables() {
+  static const std::array<Removable, 14> kAll = {{
       {"directions of the lightmap", {}, remove_directions},
-      {"light of vertices", {kVertexLightSection}, [](Pack& pack) { pack.vertex_light = {}; }},
       {"textures", {kTextureSection}, remove_textures},
       {"normal maps", {kNormalTextureSection}, remove_normal_textures},
       {"solid glass", {kSolidSection}, [](Pack& pack) { pack.solids.clear(); }},

@@ -129,7 +129,6 @@ std::vector<std::string> left_out_of_pieces(const Pack& pack) {
   const auto add = [&](std::size_t number, const char* one, const char* many, const char* why) {
     if (number > 0) lines.push_back(fmt::format("{} {}: {}", number, number == 1 ? one : many, why));
   };
-  add(pack.vertex_light.irradiance.size(), "vertex colour", "vertex colours", "the viewer shows the lightmap instead");
   add(pack.radiance_maps.size(), "radiance map", "radiance maps", "the viewer draws the mirrored scene instead");
   if (pack.light_field.bands > 0)
     add(pack.movers.size(), "mover", "movers", "shown without the shadows that bright lamps throw");

@@ -110,7 +110,6 @@ void validate_materials(const Pack& pack, IssueList& list);
 void validate_solids(const Pack& pack, IssueList& list);
 void validate_emission_textures(const Pack& pack, IssueList& list);
 void validate_textures(const Pack& pack, ImagePixels pixels, IssueList& list);
-void validate_vertex_light(const Pack& pack, IssueList& list);
 void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& list);
 // Of the pack's reflectors and frosted panes.
 void validate_reflectors(const Pack& pack, IssueList& list);

@@ -85,7 +85,6 @@ inline constexpr std::uint32_t kSolidSection = fourcc("GLAS");
 inline constexpr std::uint32_t kEmissionTextureSection = fourcc("ETEX");
 inline constexpr std::uint32_t kTextureSection = fourcc("TEXR");
 inline constexpr std::uint32_t kLightmapSection = fourcc("LMAP");
-inline constexpr std::uint32_t kVertexLightSection = fourcc("VLIT");
 inline constexpr std::uint32_t kNormalTextureSection = fourcc("NTEX");
 inline constexpr std::uint32_t kReflectorSection = fourcc("RFLT");
 inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
@@ -109,7 +108,7 @@ inline constexpr std::uint32_t kPageGroupsSection = fourcc("GLMP");
 inline constexpr std::uint32_t kDaySection = fourcc("DAYH");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 31> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 30> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -119,7 +118,6 @@ inline constexpr std::array<SectionKind, 31> kSectionKinds = {{
     {kEmissionTextureSection, "emission textures", true, false, false},
     {kTextureSection, "texture", false, false, true},
     {kLightmapSection, "lightmap page", false, false, true},
-    {kVertexLightSection, "light of vertices", true, false, false},
     {kNormalTextureSection, "normal texture", true, false, true},
     {kReflectorSection, "reflectors", false, false, false},
     {kRadianceMapSection, "radiance map", false, false, true},

@@ -154,12 +154,6 @@ void describe(Serial& s, LightmapPage& page) {
       });
 }
 
-void describe(Serial& s, VertexLight& light) {
-  const std::uint32_t vertices = s.count(light.irradiance);
-  const int exponent = describe_half_exponent(s, light.irradiance);
-  describe_halves(s, light.irradiance, vertices, exponent, "vertex light");
-}
-
 namespace {
 
 // Halves of light as they lie in the file.

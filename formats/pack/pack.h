@@ -18,7 +18,6 @@
 #include "formats/assets/mover.h"
 #include "formats/assets/radiance_map.h"
 #include "formats/assets/surround_map.h"
-#include "formats/assets/vertex_light.h"
 #include "formats/assets/walk_grid.h"
 #include "formats/core/bytes.h"
 #include "formats/query/visible_sets.h"
@@ -56,7 +55,6 @@ struct Pack {
   std::vector<Texture> textures;
   std::vector<Texture> normal_textures;
   std::vector<LightmapPage> lightmaps;
-  VertexLight vertex_light;  // that is drawn in place of the lightmap's, while lamps shine as they were baked
   std::vector<Reflector> reflectors;
   std::vector<RadianceMap> radiance_maps;
   std::vector<MapMesh> map_meshes;  // of each radiance map, or none

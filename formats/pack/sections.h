@@ -14,7 +14,6 @@ void describe(Serial& s, SolidGlass& solid);
 void describe(Serial& s, EmissionTexture& emission);
 void describe(Serial& s, Texture& texture);
 void describe(Serial& s, LightmapPage& page);
-void describe(Serial& s, VertexLight& light);
 void describe(Serial& s, Reflector& reflector);
 void describe(Serial& s, RadianceMap& map);
 void describe(Serial& s, MapMesh& mesh);
@@ -86,7 +85,6 @@ void visit_sections(P& pack, Visitor& v) {
   v.list(kEmissionTextureSection, pack.emission_textures);
   v.each(kTextureSection, pack.textures);
   v.each(kLightmapSection, pack.lightmaps);
-  v.one(kVertexLightSection, pack.vertex_light, !pack.vertex_light.irradiance.empty());
   v.each(kNormalTextureSection, pack.normal_textures);
   v.list(kReflectorSection, pack.reflectors);
   v.each(kRadianceMapSection, pack.radiance_maps);

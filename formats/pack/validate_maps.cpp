@@ -134,16 +134,6 @@ void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& all) {
   });
 }
 
-void validate_vertex_light(const Pack& pack, IssueList& list) {
-  const std::vector<Vec3>& light = pack.vertex_light.irradiance;
-  if (light.empty()) return;
-  list.in_section(kVertexLightSection);
-  if (light.size() != pack.mesh.positions.size())
-    list.error(307, "found light of {} vertices, expected that of the mesh's {}", light.size(),
-               pack.mesh.positions.size());
-  list.each(308, "light", light, is_light, kNotNegative);
-}
-
 void validate_cells(std::span<const std::uint32_t> cells, const IVec2& size, const IVec2& details, IssueList& list) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (cells[i] == 0) continue;

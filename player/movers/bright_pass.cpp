@@ -307,7 +307,7 @@ Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context
   for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(context, lit, shadows));
   if (shadows != nullptr) take_otherwise(context, *shadows);
   if (shaded) {
-    const ShadeTarget target{of_scene_.surfaces, of_scene_.change, of_scene_.change_target, targets_};
+    const LitTarget target{of_scene_.surfaces, of_scene_.change, of_scene_.change_target, targets_};
     ORIEL_TRY_VOID(shade_.draw(context, movers, target));
   }
   known_ = std::move(now);

@@ -7,10 +7,10 @@
 namespace oriel {
 namespace {
 
-constexpr int kRow = 1024;                        // numbers, or nodes, in a row of a texture
-constexpr int kLightTexels = 4, kCellTexels = 4;  // a row, as shaders/lib/shade.glsl and shade_light.vert have it
-constexpr float kFar = 1e30f;                     // metres: as good as without end
-enum { kMaskUnit = 1, kLightsUnit = 8, kListUnit = 9, kCellsUnit = 10 };
+constexpr int kRow = 1024;       // numbers, or nodes, in a row of a texture
+constexpr int kLightTexels = 4;  // a row, as shaders/lib/shade.glsl has it
+constexpr float kFar = 1e30f;    // metres: as good as without end
+enum { kMaskUnit = 1, kLightsUnit = 8, kListUnit = 9, kTreeUnit = 10 };
 
 // The last row is filled up.
 gpu::Texture2d float_texture(int width, std::vector<Vec4> texels) {
@@ -32,26 +32,15 @@ Vec4 node_of(std::span<const ShadeCell> cells, const ShadeCell& cell) {
 
 Result<ShadeDraw> ShadeDraw::create(gpu::Dialect dialect) {
   ShadeDraw out;
-  ORIEL_TRY(out.boxes_, gpu::Program::create("shade_light", dialect));
-  ORIEL_TRY(out.pixels_, gpu::Program::create("screen_shade_light", dialect));
+  ORIEL_TRY(out.program_, gpu::Program::create("screen_shade_light", dialect));
   out.no_vertices_ = gpu::make_vertex_array();
   return out;
 }
 
-// One row more than cells: all of space.
 Status ShadeDraw::set_scene(const ShadeScene& scene) {
-  std::vector<Vec4> corners, nodes;
-  Bounds all;
-  for (const ShadeCell& cell : scene.cells) {
-    for (const Vec3& corner : {cell.cell.lower, cell.cell.upper})
-      corners.emplace_back(glm::clamp(corner, Vec3(-kFar), Vec3(kFar)), 0);
-    for (const Vec3& corner : {cell.content.lower, cell.content.upper}) corners.emplace_back(corner, 0);
-    if (!cell.content.empty()) all.extend(cell.content);
-    nodes.push_back(node_of(scene.cells, cell));
-  }
-  for (const Vec3& corner : {Vec3(-kFar), Vec3(kFar), all.lower, all.upper}) corners.emplace_back(corner, 0);
+  std::vector<Vec4> nodes;
+  for (const ShadeCell& cell : scene.cells) nodes.push_back(node_of(scene.cells, cell));
   cell_count_ = scene.cells.size();
-  cells_ = float_texture(kCellTexels, std::move(corners));
   tree_ = float_texture(kRow, std::move(nodes));
   return gpu::check_gl("uploading cells for the shade of movers");
 }
@@ -76,83 +65,50 @@ void ShadeDraw::set_movers(std::span<const Vec4> spheres) {
   std::copy_n(spheres.begin(), std::min(spheres.size(), movers_.size()), movers_.begin());
 }
 
-void ShadeDraw::upload_list(std::vector<std::uint32_t> list) {
+// Of each cell where its lights begin and how many there are, then all of these.
+Status ShadeDraw::set_lists(std::span<const CellLights> lists) {
+  std::vector<std::uint32_t> list(2 * cell_count_, 0);
+  for (const CellLights& one : lists) {
+    list[2 * one.cell] = static_cast<std::uint32_t>(list.size());
+    list[2 * one.cell + 1] = static_cast<std::uint32_t>(one.lights.size());
+    list.insert(list.end(), one.lights.begin(), one.lights.end());
+  }
   const int rows = std::max(static_cast<int>((list.size() + kRow - 1) / kRow), 1);
   list.resize(static_cast<std::size_t>(rows) * kRow, 0);
   if (list_ && list_.height() >= rows)
     list_.upload(0, 0, rows, list.data());
   else
     list_ = gpu::Texture2d(gpu::kR32ui, kRow, rows, list.data());
-}
-
-// Of passes: each one's cells, then its lights. By pixel: of each cell where its lights begin and how many there are,
-// then all of these.
-Status ShadeDraw::set_passes(std::vector<LightPass> passes, bool by_pixel, std::uint32_t lights_a_pass) {
-  passes_ = std::move(passes);
-  by_pixel_ = by_pixel;
-  lights_a_pass_ = std::max(lights_a_pass, 1u);
-  std::vector<std::uint32_t> list(by_pixel ? 2 * cell_count_ : 0, 0);
-  for (const LightPass& pass : passes_) {
-    if (by_pixel) {
-      list[2 * pass.cells.front()] = static_cast<std::uint32_t>(list.size());
-      list[2 * pass.cells.front() + 1] = static_cast<std::uint32_t>(pass.lights.size());
-    } else {
-      list.insert(list.end(), pass.cells.begin(), pass.cells.end());
-    }
-    list.insert(list.end(), pass.lights.begin(), pass.lights.end());
-  }
-  upload_list(std::move(list));
   return gpu::check_gl("uploading which lights movers may block");
 }
 
-void ShadeDraw::bind(const gpu::Program& program, const ShadeMaps& maps, const Seen& seen) const {
+void ShadeDraw::bind(const gpu::Program& program, const gpu::Texture2d& list, const ShadeMaps& maps,
+                     const LitPixels& pixels) const {
   program.use();
   program.set("u_surfaces", kSurfaceUnit);
   program.set("u_mask", kMaskUnit);
-  program.set("u_masked", seen.mask != nullptr ? 1 : 0);
+  program.set("u_masked", pixels.mask != nullptr ? 1 : 0);
   program.set("u_lights", kLightsUnit);
   program.set("u_list", kListUnit);
   program.set("u_mover_depth", kShadowUnit);
   program.set("u_still_depth", kStaticUnit);
   program.set("u_movers", std::span<const Vec4>(movers_));
-  seen.surfaces.bind(kSurfaceUnit);
-  if (seen.mask != nullptr) seen.mask->bind(kMaskUnit);
-  lights_.bind(kLightsUnit), list_.bind(kListUnit);
+  pixels.surfaces.bind(kSurfaceUnit);
+  if (pixels.mask != nullptr) pixels.mask->bind(kMaskUnit);
+  lights_.bind(kLightsUnit), list.bind(kListUnit);
   maps.movers().bind(kShadowUnit), maps.still().bind(kStaticUnit);
 }
 
-void ShadeDraw::draw(const View& view, const ShadeMaps& maps, const Seen& seen, FrameStats& stats) const {
+void ShadeDraw::draw(const ShadeMaps& maps, const LitPixels& pixels, FrameStats& stats) const {
   gpu::RasterState state;
   state.blend = gpu::Blend::kAdd;
-  state.cull = by_pixel_ ? gpu::Cull::kNone : gpu::Cull::kFront;  // of boxes one layer of pixels, from within too
   gpu::apply(state);
   glBindVertexArray(no_vertices_.name());
-  if (by_pixel_) {
-    bind(pixels_, maps, seen);
-    pixels_.set("u_tree", kCellsUnit);
-    tree_.bind(kCellsUnit);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    ++stats.draws;
-    return;
-  }
-  bind(boxes_, maps, seen);
-  boxes_.set("u_clip_from_pack", view.clip_from_pack);
-  boxes_.set("u_view", seen.view);
-  boxes_.set("u_cells", kCellsUnit);
-  cells_.bind(kCellsUnit);
-  int at = 0;
-  for (const LightPass& pass : passes_) {
-    const int cells = static_cast<int>(pass.cells.size()), lights = static_cast<int>(pass.lights.size());
-    const int each = static_cast<int>(lights_a_pass_);
-    boxes_.set("u_first_cell", at);
-    for (int first = 0; first < lights; first += each) {
-      boxes_.set("u_first_light", at + cells + first);
-      boxes_.set("u_light_count", std::min(each, lights - first));
-      glDrawArraysInstanced(GL_TRIANGLES, 0, 36, cells);
-      ++stats.draws;
-    }
-    at += cells + lights;
-  }
+  bind(program_, list_, maps, pixels);
+  program_.set("u_tree", kTreeUnit);
+  tree_.bind(kTreeUnit);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  ++stats.draws;
 }
 
 }  // namespace oriel

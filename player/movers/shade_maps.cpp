@@ -87,14 +87,17 @@ void ShadeMaps::draw(const GpuScene& scene, std::uint32_t light, std::span<const
   ++stats.shade.maps;
 }
 
-std::size_t ShadeMaps::refresh(const FrameContext& context, std::span<const Wanted> wanted,
-                               std::span<const PlacedMover> movers) {
+std::size_t ShadeMaps::refresh(const FrameContext& context, std::span<const CellLights> wanted,
+                               std::span<const Vec3> intensities, std::span<const PlacedMover> movers) {
   std::vector<Mat4> poses;
   for (const PlacedMover& placed : movers) poses.push_back(placed.pack_from_object);
   std::vector<std::pair<float, std::uint32_t>> late;
-  for (const Wanted& w : wanted)
-    if (known_[w.light].poses != poses)
-      late.emplace_back(-w.brightest * static_cast<float>(++known_[w.light].late), w.light);
+  std::vector<std::uint8_t> is_wanted(known_.size(), 0);
+  for (const CellLights& one : wanted)
+    for (const std::uint32_t l : one.lights) is_wanted[l] = 1;
+  for (std::uint32_t l = 0; l < known_.size(); ++l)
+    if (is_wanted[l] != 0 && known_[l].poses != poses)
+      late.emplace_back(-max_component(intensities[l]) * static_cast<float>(++known_[l].late), l);
   std::ranges::sort(late);
   const std::size_t most = context.options.shade.maps_a_frame;
   const std::size_t drawn = most == 0 ? late.size() : std::min(most, late.size());

@@ -15,15 +15,11 @@ class ShadeMaps {
   // Maps of the movers of `side`² texels a light, fewer where all of them would be more than 256 MB; all of them are to
   // be drawn anew. movers: the pack's, always the same. Error kRuntime.
   Status begin(const ShadeScene& scene, std::span<const Mover> movers, int side);
-  // Movers at these poses: light by light, what each of them may block.
-  struct Wanted {
-    std::uint32_t light = 0;
-    float brightest = 0;  // its brightest channel, cd
-  };
-  // Draws maps in which movers are not where they are drawn, at most maps_a_frame: the brightest times the calls that
-  // it is late first, so that none waits for ever (Barczak 2006, section 4.5.3). How many are left. Its own framebuffer
-  // stays bound.
-  std::size_t refresh(const FrameContext& context, std::span<const Wanted> wanted, std::span<const PlacedMover> movers);
+  // Draws maps of lights in the lists in which movers are not where they are drawn, at most maps_a_frame: the brightest
+  // times the calls that it is late first, so that none waits for ever (Barczak 2006, section 4.5.3). intensities: by
+  // light. How many are left. Its own framebuffer stays bound.
+  std::size_t refresh(const FrameContext& context, std::span<const CellLights> wanted,
+                      std::span<const Vec3> intensities, std::span<const PlacedMover> movers);
 
   const gpu::TextureArray& movers() const { return movers_; }
   const gpu::TextureArray& still() const { return still_; }

@@ -8,10 +8,6 @@
 namespace oriel {
 namespace {
 
-constexpr int kStep = 4;          // of the frame's pixels one is drawn along each side
-constexpr int kListWidth = 1024;  // numbers in a row
-enum { kFewerUnit = 2, kFewerLightUnit = 3 };
-
 // Where a frame is timed, waits for what was drawn.
 class Stopwatch {
  public:
@@ -30,15 +26,6 @@ class Stopwatch {
   bool on_;
   std::chrono::steady_clock::time_point start_;
 };
-
-// Where a pixel of a picture of fewer is the middle of the pixel that it stands for: scale and offset, in the whole
-// view's coordinates from -1 to 1.
-Vec4 view_of_fewer(const gpu::Texture2d& all, const gpu::Texture2d& fewer) {
-  const Vec2 whole(all.width(), all.height()), few(fewer.width(), fewer.height());
-  const Vec2 scale = whole / (static_cast<float>(kStep) * few);
-  const float off = static_cast<float>(kStep / 2) + 0.5f - 0.5f * static_cast<float>(kStep);
-  return {scale, scale - 2 * off / (static_cast<float>(kStep) * few) - 1.0f};
-}
 
 }  // namespace
 
@@ -67,13 +54,12 @@ Result<ShadePass> ShadePass::create(gpu::Dialect dialect) {
 
 // Packs without movers need none of it.
 Status ShadePass::make_programs() {
-  if (no_vertices_) return {};
+  if (made_) return {};
   ORIEL_TRY(maps_, ShadeMaps::create(dialect_));
   ORIEL_TRY(light_, ShadeDraw::create(dialect_));
-  ORIEL_TRY(fewer_, gpu::Program::create("screen_shade_fewer", dialect_));
-  ORIEL_TRY(between_, gpu::Program::create("screen_shade_between", dialect_));
+  ORIEL_TRY(few_, FewPixels::create(dialect_));
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers_);
-  no_vertices_ = gpu::make_vertex_array();
+  made_ = true;
   return {};
 }
 
@@ -139,126 +125,34 @@ Status ShadePass::set_intensities(const FrameContext& context) {
   return light_.set_lights(*scene_, intensities_);
 }
 
-std::vector<LightPass> ShadePass::all_lights() const {
-  LightPass pass;
-  pass.cells = {static_cast<std::uint32_t>(scene_->cells.size())};
-  for (std::uint32_t l = 0; l < scene_->lights.size(); ++l) pass.lights.push_back(l);
-  return {pass};
+void ShadePass::move(std::span<const PlacedMover> movers) {
+  for (std::size_t m = movers.size(); m < spheres_.size(); ++m) blocked_->remove(static_cast<std::uint32_t>(m));
+  spheres_.resize(movers.size(), Vec4(0, 0, 0, -1));
+  for (std::uint32_t m = 0; m < movers.size(); ++m)
+    if (spheres_[m] != movers[m].sphere) blocked_->move(m, spheres_[m] = movers[m].sphere);
+  light_.set_movers(spheres_);
 }
 
-std::vector<LightPass> ShadePass::passes(const FrameContext& context) const {
-  const ShadeSettings& settings = context.options.shade;
-  ShadeStats& stats = context.stats.shade;
-  std::vector<LightPass> elements;
-  const Frustum frustum = make_frustum(context.view.clip_from_pack);
-  for (std::uint32_t c = 0; c < scene_->cells.size(); ++c) {
-    const ShadeCell& cell = scene_->cells[c];
-    if (cell.child != 0 || cell.content.empty() || !may_be_visible(frustum, cell.content)) continue;
-    std::vector<std::uint32_t> lights = blocked_->lights_of(c);
-    if (lights.empty()) continue;
-    ++stats.cells, stats.pairs += lights.size();
-    elements.push_back({{c}, std::move(lights)});
-  }
-  if (settings.work == ShadeWork::kEachLight) elements = all_lights();
-  stats.unmerged = static_cast<std::uint32_t>(count_passes(elements, settings.lights_a_pass));
-  Stopwatch watch(context.options.timed);
-  if (settings.work == ShadeWork::kMerged) elements = merge_passes(std::move(elements), settings.lights_a_pass);
-  watch.add_to(stats.merge_ms);
-  stats.passes = settings.work == ShadeWork::kLists
-                     ? (elements.empty() ? 0 : 1)
-                     : static_cast<std::uint32_t>(count_passes(elements, settings.lights_a_pass));
-  return elements;
-}
-
-Status ShadePass::make_fewer(const ShadeTarget& target) {
-  const int width = (target.light.width() + kStep - 1) / kStep, height = (target.light.height() + kStep - 1) / kStep;
-  if (few_.of == target.serial) return {};
-  few_.surfaces = gpu::Texture2d(gpu::kRgba32ui, width, height, nullptr);
-  few_.light = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
-  few_.mask = gpu::Texture2d(gpu::kR8, target.light.width(), target.light.height(), nullptr);
-  ORIEL_TRY(few_.surfaces_target, gpu::Framebuffer::create("few surfaces", &few_.surfaces, nullptr));
-  ORIEL_TRY(few_.light_target, gpu::Framebuffer::create("few lights", &few_.light, nullptr));
-  const std::array<const gpu::Texture2d*, 2> both{&target.light, &few_.mask};
-  ORIEL_TRY(few_.between_target, gpu::Framebuffer::create("light between", both));
-  few_.of = target.serial;
-  return gpu::check_gl("making the pictures of the shade of movers");
-}
-
-// Light at few pixels, and between them; what is left is marked.
-void ShadePass::draw_fewer(const FrameContext& context, const ShadeTarget& target) const {
-  constexpr GLfloat kNothing[] = {0, 0, 0, 0};
-  gpu::apply({});
-  glBindVertexArray(no_vertices_.name());
-  few_.surfaces_target.bind();
-  glViewport(0, 0, few_.light.width(), few_.light.height());
-  fewer_.use();
-  fewer_.set("u_surfaces", kSurfaceUnit);
-  fewer_.set("u_step", kStep);
-  target.surfaces.bind(kSurfaceUnit);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  few_.light_target.bind();
-  glClearBufferfv(GL_COLOR, 0, kNothing);
-  light_.draw(context.view, maps_, {few_.surfaces, nullptr, view_of_fewer(target.light, few_.light)}, context.stats);
-  few_.between_target.bind();
-  glViewport(0, 0, target.light.width(), target.light.height());
-  gpu::RasterState state;
-  state.blend = gpu::Blend::kAdd;
-  gpu::apply(state);
-  glClearBufferfv(GL_COLOR, 1, kNothing);
-  between_.use();
-  between_.set("u_surfaces", kSurfaceUnit);
-  between_.set("u_fewer", kFewerUnit);
-  between_.set("u_light", kFewerLightUnit);
-  between_.set("u_step", kStep);
-  target.surfaces.bind(kSurfaceUnit);
-  few_.surfaces.bind(kFewerUnit);
-  few_.light.bind(kFewerLightUnit);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-// Of the lights that movers may block anywhere in view.
-std::size_t ShadePass::refresh_maps(const FrameContext& context, std::span<const PlacedMover> movers,
-                                    std::span<const LightPass> passes) {
-  std::vector<std::uint8_t> wanted(scene_->lights.size(), 0);
-  for (const LightPass& pass : passes)
-    for (const std::uint32_t l : pass.lights) wanted[l] = 1;
-  std::vector<ShadeMaps::Wanted> maps;
-  for (std::uint32_t l = 0; l < wanted.size(); ++l)
-    if (wanted[l] != 0) maps.push_back({l, max_component(intensities_[l])});
-  return maps_.refresh(context, maps, movers);
-}
-
-Status ShadePass::draw(const FrameContext& context, std::span<const PlacedMover> movers, const ShadeTarget& target) {
-  const ShadeSettings& settings = context.options.shade;
+Status ShadePass::draw(const FrameContext& context, std::span<const PlacedMover> movers, const LitTarget& target) {
   ShadeStats& stats = context.stats.shade;
   stats.lights = static_cast<std::uint32_t>(scene_->lights.size());
   stats.prepare_s = scene_->seconds;
   Stopwatch watch(context.options.timed);
-  const std::size_t known = std::min<std::size_t>(movers.size(), BlockedLights::kMostMovers);
-  for (std::size_t m = known; m < spheres_.size(); ++m) blocked_->remove(static_cast<std::uint32_t>(m));
-  spheres_.resize(known, Vec4(0, 0, 0, -1));
-  for (std::uint32_t m = 0; m < known; ++m)
-    if (spheres_[m] != movers[m].sphere) blocked_->move(m, spheres_[m] = movers[m].sphere);
-  light_.set_movers(spheres_);
-  std::vector<LightPass> drawn = passes(context);
+  const auto known = movers.first(std::min<std::size_t>(movers.size(), BlockedLights::kMostMovers));
+  move(known);
+  const std::vector<CellLights> lists = lights_in_view(*scene_, *blocked_, make_frustum(context.view.clip_from_pack));
+  stats.cells = static_cast<std::uint32_t>(lists.size());
+  for (const CellLights& one : lists) stats.pairs += one.lights.size();
   watch.add_to(stats.cells_ms);
-  stats.cells_ms -= stats.merge_ms;
-  late_ = refresh_maps(context, movers.first(known), drawn);
+  late_ = maps_.refresh(context, lists, intensities_, known);
   if (late_ > 0) ++version_;
   stats.late = static_cast<std::uint32_t>(late_);
   watch.add_to(stats.maps_ms);
-  if (drawn.empty()) return {};
-  ORIEL_TRY_VOID(light_.set_passes(std::move(drawn), settings.work == ShadeWork::kLists, settings.lights_a_pass));
-  const bool few = settings.work >= ShadeWork::kFewPixels;
-  if (few) {
-    ORIEL_TRY_VOID(make_fewer(target));
-    draw_fewer(context, target);
-  }
-  target.framebuffer.bind();
-  glViewport(0, 0, target.light.width(), target.light.height());
-  light_.draw(context.view, maps_, {target.surfaces, few ? &few_.mask : nullptr}, context.stats);
+  if (lists.empty()) return {};
+  ORIEL_TRY_VOID(light_.set_lists(lists));
+  ORIEL_TRY_VOID(few_.draw(target, [&](const LitPixels& pixels) { light_.draw(maps_, pixels, context.stats); }));
   watch.add_to(stats.light_ms);
-  return gpu::check_gl("drawing the shade of movers");
+  return {};
 }
 
 }  // namespace oriel

@@ -1,8 +1,8 @@
 // The shade of movers in light that comes from everywhere: what the lightmap holds and no bright light brings. A few
 // hundred lights stand for it (ShadeScene); what movers block of them is taken from what the bake found, so that a
 // frame without movers is the baked one, and the lights' errors show in the shade alone. After Barczak 2006, chapter 4:
-// cells of space know which lights may be blocked there, maps of the movers around each light are octahedral, pictures
-// of few pixels are filled up where surfaces are even, and cells of like lights are drawn together.
+// cells of space know which lights may be blocked there, maps of the movers around each light are octahedral, and
+// pictures of few pixels are filled up where surfaces are even.
 #pragma once
 
 #include <future>
@@ -12,14 +12,6 @@
 #include "player/movers/shade_draw.h"
 
 namespace oriel {
-
-// Where the light goes that is taken: lux, added to `light`.
-struct ShadeTarget {
-  const gpu::Texture2d& surfaces;  // shaders/lib/lit_surface.glsl
-  const gpu::Texture2d& light;
-  const gpu::Framebuffer& framebuffer;  // of light alone
-  std::uint64_t serial = 0;             // another one for other textures, above 0
-};
 
 class ShadePass {
  public:
@@ -33,7 +25,7 @@ class ShadePass {
   // background it begins there once all of them have come, and until it is done there is no shade. Errors of images.
   Result<bool> prepare(const FrameContext& context, std::span<const PlacedMover> movers);
   // After prepare(). Own framebuffers stay bound. Error kRuntime.
-  Status draw(const FrameContext& context, std::span<const PlacedMover> movers, const ShadeTarget& target);
+  Status draw(const FrameContext& context, std::span<const PlacedMover> movers, const LitTarget& target);
   // Whether a frame of the same view would show more: of a scene that is known by now, or with maps that were late.
   bool has_news() const;
   // Rises whenever draw() would give something else though neither eye nor movers have moved.
@@ -42,30 +34,19 @@ class ShadePass {
  private:
   struct Work;  // in the background
   bool is_done() const;
-  struct Fewer {
-    gpu::Texture2d surfaces, light, mask;
-    gpu::Framebuffer surfaces_target, light_target, between_target;
-    std::uint64_t of = 0;  // ShadeTarget::serial
-  };
   Status make_programs();
   Status take(ShadeScene scene, const FrameContext& context);
   Status set_intensities(const FrameContext& context);
-  std::vector<LightPass> passes(const FrameContext& context) const;
-  std::vector<LightPass> all_lights() const;
-  std::size_t refresh_maps(const FrameContext& context, std::span<const PlacedMover> movers,
-                           std::span<const LightPass> passes);
-  Status make_fewer(const ShadeTarget& target);
-  void draw_fewer(const FrameContext& context, const ShadeTarget& target) const;
+  void move(std::span<const PlacedMover> movers);
 
   ShadeDraw light_;
-  gpu::Program fewer_, between_;
-  gpu::VertexArray no_vertices_;
+  FewPixels few_;
   ShadeMaps maps_;
+  bool made_ = false;  // the three above
   std::shared_ptr<const ShadeScene> scene_;
   std::optional<BlockedLights> blocked_;
   std::vector<Vec4> spheres_;      // of movers, as blocked_ knows them
   std::vector<Vec3> intensities_;  // by light
-  Fewer few_;
   std::unique_ptr<Work> work_;
   std::uint64_t geometry_ = 0, serial_ = 0, version_ = 0;  // of the scene: whose shape, whose light
   std::uint32_t wanted_lights_ = 0;

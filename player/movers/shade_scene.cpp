@@ -149,6 +149,17 @@ Result<std::vector<Vec3>> ShadeScene::shine(const ImageSource& images, std::span
   return out;
 }
 
+std::vector<CellLights> lights_in_view(const ShadeScene& scene, const BlockedLights& blocked, const Frustum& frustum) {
+  std::vector<CellLights> out;
+  for (std::uint32_t c = 0; c < scene.cells.size(); ++c) {
+    const ShadeCell& cell = scene.cells[c];
+    if (cell.child != 0 || cell.content.empty() || !may_be_visible(frustum, cell.content)) continue;
+    if (std::vector<std::uint32_t> lights = blocked.lights_of(c); !lights.empty())
+      out.push_back({c, std::move(lights)});
+  }
+  return out;
+}
+
 bool holds(std::span<const Vec4> places, std::span<const Vec4> spheres) {
   if (places.size() != spheres.size()) return false;
   for (std::size_t m = 0; m < places.size(); ++m)

@@ -38,6 +38,14 @@ struct ShadeScene {
                                   const Vec3& sky) const;
 };
 
+// A leaf and the lights that movers may block there, ascending.
+struct CellLights {
+  std::uint32_t cell = 0;
+  std::vector<std::uint32_t> lights;
+};
+// Leaves in view where they may block some. blocked: of the scene's cells and lights.
+std::vector<CellLights> lights_in_view(const ShadeScene& scene, const BlockedLights& blocked, const Frustum& frustum);
+
 // Whether lights that matter in these places matter to movers in those spheres.
 bool holds(std::span<const Vec4> places, std::span<const Vec4> spheres);
 

@@ -46,12 +46,9 @@ Json as_json(const FrameRecord& record) {
             {"prepare_s", s.shade.prepare_s},
             {"cells", s.shade.cells},
             {"pairs", s.shade.pairs},
-            {"passes", s.shade.passes},
-            {"unmerged_passes", s.shade.unmerged},
             {"maps", s.shade.maps},
             {"faces", s.shade.faces},
             {"cells_ms", s.shade.cells_ms},
-            {"merge_ms", s.shade.merge_ms},
             {"maps_ms", s.shade.maps_ms},
             {"light_ms", s.shade.light_ms}}},
           {"in_zone", record.in_zone}};
@@ -71,7 +68,7 @@ std::string describe(const FrameStats& stats, bool in_zone) {
   if (stats.groups > 0) text += fmt::format(", {} of {} groups may be seen", stats.groups_seen, stats.groups);
   if (const ShadeStats& shade = stats.shade; shade.lights > 0) {
     text += fmt::format(", shade of movers in {} lights, made in {:.1f} s", shade.lights, shade.prepare_s);
-    if (shade.passes > 0) text += fmt::format(", in {} passes over {} cells", shade.passes, shade.cells);
+    if (shade.cells > 0) text += fmt::format(", over {} cells", shade.cells);
   }
   for (std::size_t i = 0; i < kPassNames.size(); ++i)
     if (stats.ms[i] > 0) text += fmt::format(", {} {:.1f} ms", kPassNames[i], stats.ms[i]);

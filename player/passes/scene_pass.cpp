@@ -66,12 +66,12 @@ Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
   ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
   ORIEL_TRY(pass.plain_depth_, gpu::Program::create("depth", dialect, "PLAIN"));
   pass.dialect_ = dialect;
-  ORIEL_TRY_VOID(pass.make(kTexture));
+  ORIEL_TRY_VOID(pass.make(kBilinear));
   return pass;
 }
 
 Status ScenePass::make(LightForm form) {
-  constexpr std::array<const char*, kForms> kDefine{"", "BICUBIC", "VERTEX_LIGHT"};
+  constexpr std::array<const char*, kForms> kDefine{"", "BICUBIC"};
   const std::string define = kDefine[form];
   Lit lit;
   ORIEL_TRY(lit.opaque, gpu::Program::create("scene", dialect_, define));
@@ -83,8 +83,7 @@ Status ScenePass::make(LightForm form) {
 }
 
 Status ScenePass::prepare(const GpuScene& scene, const FrameOptions& options) {
-  const bool bicubic = options.lightmap_filter == LightmapFilter::kBicubic;
-  form_ = scene.shows_vertex_light() ? kVertices : bicubic ? kBicubic : kTexture;
+  form_ = options.lightmap_filter == LightmapFilter::kBicubic ? kBicubic : kBilinear;
   if (!lit_[form_]) ORIEL_TRY_VOID(make(form_));
   if (form_ != kBicubic || inner_of_ == scene.geometry_serial()) return {};
   const std::vector<std::vector<std::uint8_t>> inner = inner_texels(scene.pack());

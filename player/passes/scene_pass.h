@@ -61,9 +61,9 @@ class ScenePass {
 
  private:
   void draw_depths(const FrameContext& context, std::span<const DrawBatch> shown) const;
-  // Where light comes from: textures, by either filter, or vertices. plain: of surfaces without normal map, cut-outs or
+  // How light between texels is made. plain: of surfaces without normal map, cut-outs or
   // change by movers, that are lit; reflected: those in the image of a mirror.
-  enum LightForm { kTexture, kBicubic, kVertices, kForms };
+  enum LightForm { kBilinear, kBicubic, kForms };
   struct Lit {
     gpu::Program opaque, plain, reflected, transparent;
   };
@@ -75,7 +75,7 @@ class ScenePass {
   gpu::Dialect dialect_{};
   gpu::Program depth_, plain_depth_;
   std::array<std::optional<Lit>, kForms> lit_;  // made when first drawn
-  LightForm form_ = kTexture;
+  LightForm form_ = kBilinear;
   std::vector<gpu::Texture2d> inner_;  // by page: inner_texels()
   std::uint64_t inner_of_ = 0;         // whose they are
 };

@@ -34,17 +34,11 @@ enum class Reflectance { kTable, kSphereMap };
 // How movers meet bright lights: with shadows of their own, without any, or as harmonics like all other light.
 enum class MoverLights { kShadowed, kUnshadowed, kHarmonics };
 
-// How the shade of movers in the light from everywhere is found, for comparison: each light at each pixel; those that
-// movers may block in a cell of space, at its pixels (Barczak 2006, section 4.3.1); likewise at one of sixteen pixels,
-// and at all of them where surfaces end (4.3.3); likewise, cells with like lights drawn together (4.3.5); or, in place
-// of these passes, each pixel finds its cell's lights by itself.
-enum class ShadeWork { kEachLight, kCells, kFewPixels, kMerged, kLists };
+// The shade of movers in the light from everywhere.
 struct ShadeSettings {
-  std::uint32_t lights = 128;  // that stand for what surfaces and the sky send out; 0: no such shade
-  ShadeWork work = ShadeWork::kLists;
-  std::uint32_t lights_a_pass = 7;  // as published; lists are one pass
-  bool every_pixel = false;         // of the frame, else of one of half its size
-  std::uint32_t map_side = 128;     // texels of a light's map of the movers
+  std::uint32_t lights = 128;    // that stand for what surfaces and the sky send out; 0: no such shade
+  bool every_pixel = false;      // of the frame, else of one of half its size
+  std::uint32_t map_side = 128;  // texels of a light's map of the movers
   // Maps that are drawn in a frame, at most, while movers move; 0: all that are late.
   std::uint32_t maps_a_frame = 0;
 
@@ -52,12 +46,9 @@ struct ShadeSettings {
 };
 inline constexpr std::uint32_t kMostShadeLights = 1024;
 
-// What the bake knows of a lamp that has moved: as much as its live lights say (fitted), all of it, what live lights
-// give now less what they gave there being added (differential), or nothing (only).
-enum class LiveMode { kFitted, kDifferential, kOnly };
+// Light of lamps that have moved.
 struct LiveSettings {
   LiveOptions lights;
-  LiveMode mode = LiveMode::kFitted;
   bool in_background = false;  // light of lamps that moved comes later, coarse before fine; else a frame waits for it
 
   bool operator==(const LiveSettings&) const = default;
@@ -122,15 +113,14 @@ using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 
 // Of the shade of movers in the light from everywhere.
 struct ShadeStats {
-  std::uint32_t lights = 0;                // of the scene
-  std::uint32_t cells = 0;                 // in view in which movers may block some of them
-  std::uint64_t pairs = 0;                 // of these cells and lights
-  std::uint32_t passes = 0, unmerged = 0;  // the latter without drawing cells together
-  std::uint32_t maps = 0, faces = 0;       // drawn; the latter mover by mover
-  std::uint32_t late = 0;                  // maps that are still to be drawn
-  double prepare_s = 0;                    // for the scene, once
-  // Milliseconds, where a frame is timed: what movers may block, drawing cells together, maps, light.
-  double cells_ms = 0, merge_ms = 0, maps_ms = 0, light_ms = 0;
+  std::uint32_t lights = 0;           // of the scene
+  std::uint32_t cells = 0;            // in view in which movers may block some of them
+  std::uint64_t pairs = 0;            // of these cells and lights
+  std::uint32_t maps = 0, faces = 0;  // drawn; the latter mover by mover
+  std::uint32_t late = 0;             // maps that are still to be drawn
+  double prepare_s = 0;               // for the scene, once
+  // Milliseconds, where a frame is timed: what movers may block, maps, light.
+  double cells_ms = 0, maps_ms = 0, light_ms = 0;
 };
 
 struct FrameStats {

@@ -56,7 +56,6 @@ std::vector<DrawBatch> visible_batches(std::span<const DrawRange> ranges, const 
 ShownTriangles gather_visible(std::span<const DrawRange> ranges, std::span<const std::uint32_t> indices,
                               const Frustum& frustum, const SeenMask& seen);
 
-inline constexpr GLuint kVertexLight = 7;  // attribute of the scene's vertices, where a pack has their light
 // Attributes 0 to 6 of the bound vertex array: those of shaders/passes/surface_vertex.glsl.
 void upload_vertices(const Mesh& mesh, std::vector<gpu::Buffer>& buffers);
 

@@ -113,18 +113,9 @@ void GpuScene::upload_geometry() {
   vertex_array_ = gpu::make_vertex_array();
   glBindVertexArray(vertex_array_.name());
   upload_vertices(mesh, buffers_);
-  if (const auto& light = pack_.vertex_light.irradiance; !light.empty())
-    gpu::add_attribute(buffers_, kVertexLight, light, {3, GL_FLOAT});
   index_buffer_ = gpu::Buffer(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
   glBindVertexArray(0);
   indices_ = std::move(indices);
-}
-
-bool GpuScene::shows_vertex_light() const {
-  const auto as_baked = [](const Vec3& factor) { return factor == Vec3(1); };
-  const auto at_rest = [](const MoverPose& pose) { return pose == MoverPose(); };
-  return !pack_.vertex_light.irradiance.empty() && std::ranges::all_of(lights_, as_baked) &&
-         std::ranges::all_of(lamps_, at_rest);
 }
 
 std::vector<DrawBatch> GpuScene::show(const Frustum& frustum, const SeenMask& seen) {
@@ -157,7 +148,6 @@ void GpuScene::make_fewer() {
 
 std::vector<DrawBatch> GpuScene::show_fewer(const View& view, const SeenMask& seen) {
   const Frustum frustum = make_frustum(view.clip_from_pack);
-  if (shows_vertex_light()) return show(frustum, seen);  // fewer triangles would have other light
   if (!fewer_ && !coming_.valid() && pack_.mesh.indices.size() > 3 * kFewTriangles) begin_fewer();
   if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) make_fewer();
   if (!fewer_) return show(frustum, seen);

@@ -160,8 +160,6 @@ class GpuScene {
   const gpu::Texture2d& normal_map(std::int32_t index) const;
   // Scale 0 where index is -1.
   const LoadedLightmap& lightmap(std::int32_t index) const;
-  // Whether surfaces are drawn by the light of their vertices: lamps shine as they were baked, and where.
-  bool shows_vertex_light() const;
   const gpu::Texture2d& reflectance_tables() const { return reflectance_tables_; }
   // Whether a reflector's maps are there, or will be once bring_maps() is called. Errors of images.
   Result<bool> may_show_maps(const GpuReflector& reflector);

@@ -82,7 +82,7 @@ struct LiveLamps::Job {
 void LiveLamps::Job::run(const ImageSource& images, std::span<const Reflector> reflectors,
                          std::span<const float> alphas) {
   const auto start = std::chrono::steady_clock::now();
-  const LiveWork work{*lamp->scene, {now, baked}, settings.mode, coarse, &stop};
+  const LiveWork work{*lamp->scene, {now, baked}, coarse, &stop};
   std::vector<LivePage> pages;
   std::vector<std::vector<LiveSum>> direct;
   for (std::uint32_t p = 0; p < lamp->points.size() && !stop; ++p) {
@@ -98,8 +98,7 @@ void LiveLamps::Job::run(const ImageSource& images, std::span<const Reflector> r
   }
   LiveTotals totals;
   for (std::uint32_t p = 0; p < pages.size() && !stop; ++p) {
-    Result<PageChange> own = PageChange{};
-    if (settings.mode != LiveMode::kDifferential) own = images.light_of_group(p, group);
+    const Result<PageChange> own = images.light_of_group(p, group);
     if (!own) {
       status = tl::unexpected<Error>(own.error());
       return;

@@ -12,19 +12,6 @@ constexpr std::size_t kRun = 128;  // points that a thread takes at once
 constexpr float kNone = -1;        // of what is kept: not known
 constexpr int kFarthest = 8;       // texels, that one is asked for it
 
-// What is added where the bake has `own` of the lamp.
-Vec3 added_light(const LiveSum& sum, LiveMode mode, float kept, const Vec3& own) {
-  switch (mode) {
-    case LiveMode::kDifferential:
-      return sum.now - sum.baked;
-    case LiveMode::kOnly:
-      return sum.now - own;
-    case LiveMode::kFitted:
-      break;
-  }
-  return sum.now - kept * sum.baked - (1 - kept) * own;
-}
-
 // Of points that lie one after the other: at(number of the point, sums for its thread, totals).
 template <class At>
 LiveTotals each(const LiveWork& work, std::size_t first, std::size_t end, const At& at) {
@@ -83,16 +70,15 @@ class Change {
   PageChange take() { return std::move(change_); }
 
  private:
-  // around: what is kept where the sums do not say.
+  // What is added where the bake has `own` of the lamp. around: what is kept of it where the sums do not say.
   Vec3 settle(const LiveSum& direct, const LiveSum& indirect, float around, const Vec3& own, LiveTotals& sums) const {
     LiveSum both = direct;
     both += indirect;
-    const LiveMode mode = in_.work.mode;
     const float kept = both.kept().value_or(around);
     sums.now += double{luminance(both.now)}, sums.missing += double{luminance(both.missing)};
-    sums.kept += mode == LiveMode::kFitted ? double{kept} : mode == LiveMode::kOnly ? 0.0 : 1.0;
+    sums.kept += double{kept};
     sums.points += 1;
-    return added_light(both, mode, kept, own);
+    return both.now - kept * both.baked - (1 - kept) * own;
   }
 
   LiveSum indirect(std::size_t k, LiveSums& live) const {

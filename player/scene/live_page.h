@@ -23,7 +23,6 @@ struct LiveTotals {
 struct LiveWork {
   const LampScene& scene;
   LightPair lights;
-  LiveMode mode = LiveMode::kFitted;
   bool coarse = false;                      // finer points lie between texels
   const std::atomic<bool>* stop = nullptr;  // ends it early: what it gives is of no use then
 };
@@ -37,7 +36,7 @@ class LivePage {
   // What lights give texels without what they bring of other surfaces, by texel. Moved away: change() has no need of
   // it.
   std::vector<LiveSum> direct() const;
-  // Light that is to be added. own: what the bake knows of the lamp there; may be empty for kDifferential. bounced:
+  // Light that is to be added. own: what the bake knows of the lamp there; may be empty. bounced:
   // light that comes by way of texels; null: none.
   PageChange change(std::vector<LiveSum> direct, const PageChange& own, const BouncedLight* bounced,
                     LiveTotals& totals) const;

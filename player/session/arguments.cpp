@@ -131,14 +131,6 @@ std::vector<Option> mover_options(PlayArguments& out) {
        number(out.frame.light_points, 1, 16)},
       {"--shade", kMovers, "Lights that stand for light from everywhere, in which movers throw shade; 0: no such shade",
        number(out.frame.shade.lights, 0, kMostShadeLights), Use::kRare},
-      {"--shade-work", kMovers,
-       "How that shade is found, to compare: each light at each pixel; those that movers may block in a cell of space "
-       "(cells); those at one of 16 pixels where surfaces are even (few); cells with like lights together (merged); as "
-       "few, "
-       "in one pass (lists)",
-       choice(out.frame.shade.work, kShadeWorks), Use::kRare},
-      {"--shade-pass", kMovers, "Lights that one of its passes draws, but for lists",
-       number(out.frame.shade.lights_a_pass, 1, kMostShadeLights), Use::kRare},
       {"--shade-map", kMovers, "Texels a side of a light's map of the movers",
        number(out.frame.shade.map_side, 16, 1024), Use::kRare},
       {"--shade-pixels", kMovers, "Where it is found: at half of the frame's width and height, or at all pixels",

@@ -8,11 +8,6 @@ namespace oriel {
 
 std::vector<Option> live_options(const char* group, LiveSettings& out) {
   return {
-      {"--live", group,
-       "What the bake knows of a lamp that --move has put elsewhere: as much of it as its live lights say still tells "
-       "(fitted), all of it, what live lights give now less what they gave before being added (differential), or "
-       "nothing (only)",
-       choice(out.mode, kLiveModes), Use::kRare, "live"},
       {"--live-lights", group, "Lights that stand for a lamp that was moved: more are smoother and slower",
        number(out.lights.lights, 1, kMostLiveLights), Use::kRare, "live_lights"},
       {"--live-indirect", group,

@@ -30,15 +30,7 @@ inline constexpr Named<MoverLights> kMoverLights[] = {{"harmonics", MoverLights:
                                                       {"shadowed", MoverLights::kShadowed},
                                                       {"unshadowed", MoverLights::kUnshadowed}};
 
-inline constexpr Named<ShadeWork> kShadeWorks[] = {{"cells", ShadeWork::kCells},
-                                                   {"each", ShadeWork::kEachLight},
-                                                   {"few", ShadeWork::kFewPixels},
-                                                   {"lists", ShadeWork::kLists},
-                                                   {"merged", ShadeWork::kMerged}};
 inline constexpr Named<bool> kShadePixels[] = {{"all", true}, {"half", false}};
-
-inline constexpr Named<LiveMode> kLiveModes[] = {
-    {"differential", LiveMode::kDifferential}, {"fitted", LiveMode::kFitted}, {"only", LiveMode::kOnly}};
 
 inline constexpr Named<LiveIndirect> kLiveIndirect[] = {{"lights", LiveIndirect::kLights},
                                                         {"texels", LiveIndirect::kTexels}};

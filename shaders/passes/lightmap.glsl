@@ -103,13 +103,6 @@ vec3 spline_light(vec2 uv, vec2 size) {
 }
 #endif
 
-#ifdef VERTEX_LIGHT
-centroid in vec3 v_light;
-
-vec3 baked_light() {
-  return max(v_light / v_lightmap_uv.z, 0.0);
-}
-#else
 vec3 baked_light() {
   vec2 uv = lightmap_uv(v_lightmap_uv);
   vec3 light = lightmap_at(uv);
@@ -119,7 +112,6 @@ vec3 baked_light() {
 #endif
   return light * u_lightmap_scale;
 }
-#endif
 
 // Lightmaps hold the light of fronts: a back that is lit is a surface of its own.
 vec3 irradiance_on(vec3 tilted) {

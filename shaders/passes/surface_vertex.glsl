@@ -6,10 +6,6 @@ layout(location = 3) in vec2 a_lightmap_uv;
 layout(location = 4) in vec4 a_color;
 layout(location = 5) in vec2 a_normal_uv;
 layout(location = 6) in vec4 a_tangent;
-#ifdef VERTEX_LIGHT
-layout(location = 7) in vec3 a_light;  // lux
-centroid out vec3 v_light;             // as v_lightmap_uv
-#endif
 uniform mat4 u_clip_from_pack;
 invariant gl_Position;
 out vec3 v_position;
@@ -27,9 +23,6 @@ void main() {
   v_uv = a_uv;
   v_lightmap_uv = vec3(a_lightmap_uv, 1.0 + float(min(gl_VertexID, 0)));  // 1 that no driver takes for a constant
   v_color = a_color;
-#ifdef VERTEX_LIGHT
-  v_light = a_light;
-#endif
   v_normal_uv = a_normal_uv;
   v_tangent = a_tangent;
 }

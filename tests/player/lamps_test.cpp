@@ -86,22 +86,21 @@ TEST_F(LampsTest, WhereNothingMovedFramesAreTheBakesToTheBit) {
   EXPECT_TRUE((*scene)->take_live_reports().empty());
 }
 
-TEST_F(LampsTest, DirectLightIsTheClosedFormInEachMode) {
+TEST_F(LampsTest, DirectLightIsTheClosedForm) {
   const Pack pack = lit_floor();
-  for (const LiveMode mode : {LiveMode::kFitted, LiveMode::kDifferential, LiveMode::kOnly})
-    for (const float factor : {1.0f, 0.5f}) {
-      const Picture picture = draw(pack, camera_above(), 64, 64,
-                                   {.lights = {Vec3(factor), Vec3(1)},
-                                    .lamps = {shifted({1, 0.5f, 0}), {}},
-                                    .live = {{.lights = 256, .direct_share = 1, .bounces = 0}, mode}});
-      ASSERT_TRUE(picture.finite());
-      for (const IVec2& pixel : {IVec2(32, 32), IVec2(60, 32), IVec2(10, 50)}) {
-        const Vec2 at = (Vec2(pixel) + 0.5f) / 32.0f - 1.0f;
-        const Vec3 point = std::tan(0.75f) * Vec3(at.x, 0, at.y);
-        const Vec3 expected = (kOthers + factor * exact({1, 2.5f, 0}, point)) * (0.5f / kPi);
-        EXPECT_LT(glm::length(picture.at(pixel.x, pixel.y) - expected), 0.02f * glm::length(expected));
-      }
+  for (const float factor : {1.0f, 0.5f}) {
+    const Picture picture = draw(pack, camera_above(), 64, 64,
+                                 {.lights = {Vec3(factor), Vec3(1)},
+                                  .lamps = {shifted({1, 0.5f, 0}), {}},
+                                  .live = {{.lights = 256, .direct_share = 1, .bounces = 0}}});
+    ASSERT_TRUE(picture.finite());
+    for (const IVec2& pixel : {IVec2(32, 32), IVec2(60, 32), IVec2(10, 50)}) {
+      const Vec2 at = (Vec2(pixel) + 0.5f) / 32.0f - 1.0f;
+      const Vec3 point = std::tan(0.75f) * Vec3(at.x, 0, at.y);
+      const Vec3 expected = (kOthers + factor * exact({1, 2.5f, 0}, point)) * (0.5f / kPi);
+      EXPECT_LT(glm::length(picture.at(pixel.x, pixel.y) - expected), 0.02f * glm::length(expected));
     }
+  }
 }
 
 // Texels that the bake filled from around have light of a lamp whose live lights give none there.
@@ -111,12 +110,8 @@ TEST_F(LampsTest, WhatIsCoveredLosesTheLightOfALampThatIsGone) {
   const Camera below = {"c", {-1.7f, 0.2f, 0}, {0, -1, 0}, {0, 0, -1}, 1.0f, 0};
   const float before = draw(pack, below, 32, 32).at(16, 16).g, others = 0.5f * kOthers.g / kPi;
   EXPECT_GT(before, 1.2f * others);
-  for (const LiveMode mode : {LiveMode::kFitted, LiveMode::kOnly}) {
-    FrameOptions options;
-    options.lamps = {shifted({0, 500, 0}), {}};
-    options.live.mode = mode;
-    EXPECT_NEAR(draw(pack, below, 32, 32, options).at(16, 16).g, others, 0.01f * others);
-  }
+  const FrameOptions away{.lamps = {shifted({0, 500, 0}), {}}};
+  EXPECT_NEAR(draw(pack, below, 32, 32, away).at(16, 16).g, others, 0.01f * others);
 }
 
 TEST_F(LampsTest, TheLampIsSeenWhereItIs) {
@@ -133,8 +128,8 @@ TEST_F(LampsTest, AnyNumberOfLightsIsFinite) {
   for (const LiveOptions& lights : {LiveOptions{0}, LiveOptions{1}, LiveOptions{.lights = 3000, .bounces = 100},
                                     LiveOptions{3000, LiveIndirect::kLights, 0.5f, 3}})
     for (const Vec3& shift : {Vec3(0, -2, 0), Vec3(0, -1.9999f, 0), Vec3(0, -3, 0), Vec3(1e5f, 0, 0)}) {
-      const Picture picture = draw(lit_floor(), camera_above(), 32, 32,
-                                   {.lamps = {shifted(shift), {}}, .live = {lights, LiveMode::kFitted, false}});
+      const Picture picture =
+          draw(lit_floor(), camera_above(), 32, 32, {.lamps = {shifted(shift), {}}, .live = {lights, false}});
       EXPECT_TRUE(picture.finite()) << lights.lights << " lights, moved by " << shift.x << ", " << shift.y << ": "
                                     << picture.at(16, 16).x;
     }
@@ -144,7 +139,7 @@ TEST_F(LampsTest, AnyNumberOfLightsIsFinite) {
 TEST(LiveLamps, ComeToTheSameInTheBackground) {
   const Pack pack = lit_floor();
   const ImageSource images(pack, nullptr, {});
-  const LiveSettings settings{{.lights = 64, .bounces = 2}, LiveMode::kFitted, false};
+  const LiveSettings settings{{.lights = 64, .bounces = 2}, false};
   LiveSettings in_background = settings;
   in_background.in_background = true;
   const std::vector<MoverPose> away{shifted({1, 0, 0}), {}}, farther{shifted({0, 1, 0}), {}};

@@ -25,36 +25,10 @@ Pack lit_wall(const std::function<float(std::uint32_t x, std::uint32_t y)>& lux)
 TEST_F(LightmapForms, AConstantIsTheSameInAll) {
   Pack pack = lit_wall([](auto, auto) { return 512.0f; });
   const Picture texture = draw(pack, kCamera, 32, 32), bicubic = draw(pack, kCamera, 32, 32, kBicubic);
-  pack.vertex_light.irradiance.assign(4, Vec3(512));
-  const Picture vertices = draw(pack, kCamera, 32, 32);
   for (std::size_t i = 0; i < texture.rgb.size(); ++i) {
     EXPECT_NEAR(texture.rgb[i], 512 * kShown, 1e-4f * 512);
     EXPECT_NEAR(bicubic.rgb[i], texture.rgb[i], 1e-5f * 512);
-    EXPECT_NEAR(vertices.rgb[i], texture.rgb[i], 1e-5f * 512);
   }
-}
-
-TEST_F(LightmapForms, VerticesShowAGradient) {
-  Pack pack = lit_wall([](auto, auto) { return 0.0f; });
-  for (const Vec3& p : pack.mesh.positions)
-    pack.vertex_light.irradiance.push_back({300 + 200 * p.x, 100, 50 - 50 * p.y});
-  const Picture picture = draw(pack, kCamera, 32, 32);
-  for (int y = 0; y < 32; ++y)
-    for (int x = 0; x < 32; ++x) {
-      const float at_x = (static_cast<float>(x) + 0.5f) / 16 - 1, at_y = 1 - (static_cast<float>(y) + 0.5f) / 16;
-      const Vec3 lux(300 + 200 * at_x, 100, 50 - 50 * at_y);
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture.at(x, y)[c], lux[c] * kShown, 0.01f) << x << " " << y;
-    }
-}
-
-// A group of lamps that shines otherwise: vertices do not know of it, the lightmap does.
-TEST_F(LightmapForms, LampsThatAreDimmedShowTheLightmap) {
-  Pack pack = lit_wall([](auto, auto) { return 100.0f; });
-  pack.vertex_light.irradiance.assign(4, Vec3(200));
-  pack.light_groups.resize(1);
-  pack.light_groups[0].name = "lamp";
-  EXPECT_NEAR(draw(pack, kCamera, 8, 8).at(3, 3).r, 200 * kShown, 0.01f);
-  EXPECT_NEAR(draw(pack, kCamera, 8, 8, {.lights = {Vec3(0.5f)}}).at(3, 3).r, 100 * kShown, 0.01f);
 }
 
 float spline(float t) {

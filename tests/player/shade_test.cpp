@@ -51,10 +51,10 @@ double form_factor(const DVec2& lower, const DVec2& upper, double height) {
 
 class ShadeTest : public FrameTest {
  protected:
-  static FrameOptions options_of(ShadeWork work, std::uint32_t lights = 128) {
+  static FrameOptions options_of(std::uint32_t lights = 128) {
     FrameOptions options;
     options.show = Show::kD;
-    options.shade.work = work, options.shade.lights = lights;
+    options.shade.lights = lights;
     options.shade.every_pixel = true;
     options.poses = {kFaceUp};
     return options;
@@ -71,7 +71,7 @@ TEST_F(ShadeTest, OfASquareUnderAnEvenCeilingIsItsFormFactor) {
   Pack pack = room_scene();
   pack.materials[1].base_color = Vec3(1);
   pack.lightmaps[0] = flat_page(Vec3(kLux));
-  const FrameOptions options = options_of(ShadeWork::kLists, 1000);
+  const FrameOptions options = options_of(1000);
   for (const float x : {0.0f, 0.7f, 1.6f}) {
     const double blocked = kCeilingLux * kAlbedo * form_factor({-1 - x, -1}, {1 - x, 1}, 2);
     const float taken = kLux - lux_at(pack, options, x, 0);
@@ -82,7 +82,7 @@ TEST_F(ShadeTest, OfASquareUnderAnEvenCeilingIsItsFormFactor) {
 TEST_F(ShadeTest, OfTheSkyIsTheSame) {
   Pack pack = floor_scene();
   pack.sky = Vec3(20);
-  const FrameOptions options = options_of(ShadeWork::kLists, 1000);
+  const FrameOptions options = options_of(1000);
   // Some thirty lights are behind the mover: the mean over places.
   double taken = 0, blocked = 0;
   for (const float x : {-0.6f, -0.3f, 0.0f, 0.25f, 0.5f}) {
@@ -96,44 +96,9 @@ TEST_F(ShadeTest, OfTheSkyIsTheSame) {
 TEST_F(ShadeTest, IsNoneWhereNoLightComes) {
   Pack pack = room_scene();
   pack.materials[1].base_color = Vec3(1);
-  EXPECT_LT(lux_at(pack, options_of(ShadeWork::kLists), 0, 0), 0.9f * kLux);
+  EXPECT_LT(lux_at(pack, options_of(), 0, 0), 0.9f * kLux);
   add_quad(pack, {-8, -0.5f, -8}, {16, 0, 0}, {0, 0, 16}, 0, -1);
-  EXPECT_NEAR(lux_at(pack, options_of(ShadeWork::kLists), 0, 0), kLux, 1e-3f * kLux);
-}
-
-TEST_F(ShadeTest, IsTheSameByAllWays) {
-  const Pack pack = room_scene();
-  const Camera camera = look_at({5, 1.2f, 5.5f}, {0, -2, 0}, 0.9f);
-  Pack white = pack;
-  white.materials[1].base_color = Vec3(1);
-  const Picture each = draw(white, camera, 96, 64, options_of(ShadeWork::kEachLight));
-  const Picture none = draw(white, camera, 96, 64, options_of(ShadeWork::kEachLight, 0));
-  for (const ShadeWork work : {ShadeWork::kCells, ShadeWork::kFewPixels, ShadeWork::kMerged, ShadeWork::kLists}) {
-    const Picture other = draw(white, camera, 96, 64, options_of(work));
-    double squares = 0, taken = 0;
-    for (std::size_t i = 0; i < each.rgb.size(); ++i) {
-      const double off = double{other.rgb[i]} - each.rgb[i], own = double{none.rgb[i]} - each.rgb[i];
-      squares += off * off, taken += own * own;
-      // Looks from a light's edge reach a little past what is told from its middle.
-      if (work == ShadeWork::kCells) {
-        ASSERT_NEAR(off, 0, 1e-3 * none.rgb[i]) << i;
-      }
-    }
-    EXPECT_GT(taken, 0);
-    // Between one of sixteen pixels shade is bilinear.
-    EXPECT_LT(std::sqrt(squares / taken), 0.1) << static_cast<int>(work);
-  }
-}
-
-TEST_F(ShadeTest, PassesBecomeFewer) {
-  const Pack pack = room_scene();
-  const Camera camera = look_at({5, 1.2f, 5.5f}, {0, -2, 0}, 0.9f);
-  const ShadeStats merged = draw(pack, camera, 64, 48, options_of(ShadeWork::kMerged)).stats.shade;
-  EXPECT_GT(merged.cells, 4u);
-  EXPECT_LT(merged.passes, merged.unmerged);
-  EXPECT_EQ(draw(pack, camera, 64, 48, options_of(ShadeWork::kLists)).stats.shade.passes, 1u);
-  const ShadeStats each = draw(pack, camera, 64, 48, options_of(ShadeWork::kEachLight)).stats.shade;
-  EXPECT_EQ(each.passes, (each.lights + 6) / 7);
+  EXPECT_NEAR(lux_at(pack, options_of(), 0, 0), kLux, 1e-3f * kLux);
 }
 
 // Three quarters of the ceiling's light are of a lamp that lights all of the floor, a quarter is of another one.
@@ -147,7 +112,7 @@ TEST_F(ShadeTest, FollowsLampsThatAreSwitched) {
   pack.light_groups.resize(2);
   pack.light_groups[0].name = "window", pack.light_groups[1].name = "lamp";
   for (LightGroup& group : pack.light_groups) group.probes.assign(pack.light_field.probes.size(), Vec3(0.5f));
-  FrameOptions options = options_of(ShadeWork::kLists);
+  FrameOptions options = options_of();
   const float all = kLux - lux_at(pack, options, 0, 0);
   ASSERT_GT(all, 5);
   options.lights = {Vec3(1), Vec3(0)};
@@ -162,7 +127,7 @@ TEST_F(ShadeTest, LateMapsComeInTheEnd) {
   pack.materials[1].base_color = Vec3(1);
   auto scene = GpuScene::create(pack, device_);
   ASSERT_TRUE(scene);
-  FrameOptions options = options_of(ShadeWork::kLists, 64);
+  FrameOptions options = options_of(64);
   const Camera camera = look_at({5, 1.2f, 5.5f}, {0, -2, 0}, 0.9f);
   const View view = make_view(camera, 48, 32, bounds_with_movers(**scene, options.poses));
   options.shade.maps_a_frame = 10;
@@ -190,10 +155,10 @@ TEST_F(ShadeTest, LateMapsComeInTheEnd) {
 TEST_F(ShadeTest, NoLightsNoMoversNoChange) {
   Pack pack = room_scene();
   const Camera camera = look_at({5, 1.2f, 5.5f}, {0, -2, 0}, 0.9f);
-  const Picture none = draw(pack, camera, 48, 32, options_of(ShadeWork::kLists, 0));
+  const Picture none = draw(pack, camera, 48, 32, options_of(0));
   EXPECT_EQ(none.stats.shade.lights, 0u);
   pack.movers.clear();
-  FrameOptions options = options_of(ShadeWork::kLists);
+  FrameOptions options = options_of();
   options.poses.clear();
   const Picture without = draw(pack, camera, 48, 32, options);
   EXPECT_EQ(without.stats.shade.lights, 0u);
@@ -208,16 +173,16 @@ TEST_F(ShadeTest, ExtremesStayFinite) {
   // On lights, through the floor, far outside, and one that is nothing.
   for (const Vec3& position :
        {Vec3(0, 2, 0), Vec3(0, -2, 0), Vec3(0, 1.9999f, 0), Vec3(1e4f, 0, 0), Vec3(0, -1e5f, 0)}) {
-    FrameOptions options = options_of(ShadeWork::kLists);
+    FrameOptions options = options_of();
     options.poses = {at(position)};
     const Picture picture = draw(pack, camera, 24, 16, options);
     EXPECT_TRUE(picture.finite()) << position.y;
     for (const float value : picture.rgb) EXPECT_GE(value, 0);
   }
   pack.movers[0].mesh.positions.assign(pack.movers[0].mesh.positions.size(), Vec3(0));
-  EXPECT_TRUE(draw(pack, camera, 24, 16, options_of(ShadeWork::kLists)).finite());
+  EXPECT_TRUE(draw(pack, camera, 24, 16, options_of()).finite());
   pack.lightmaps[1] = page_of(32, [](std::uint32_t, std::uint32_t) { return Vec3(0); });
-  EXPECT_TRUE(draw(pack, camera, 24, 16, options_of(ShadeWork::kLists, 1)).finite());
+  EXPECT_TRUE(draw(pack, camera, 24, 16, options_of(1)).finite());
 }
 
 HemisphereMap slanted_map() {

@@ -279,8 +279,6 @@ void add_tiny_groups(Pack& pack) {
 Pack tiny_mapped_pack() {
   Pack pack = tiny_pack();
   pack.emission_textures = {{1, 0, Vec3(0.5f, 0.25f, 1)}};
-  for (std::size_t i = 0; i < pack.mesh.positions.size(); ++i)
-    pack.vertex_light.irradiance.push_back(Vec3(100, 50, 0.25f) * static_cast<float>(i));
   pack.solids = {{1, Vec3(0.9f, 0.95f, 1), Vec3(0.5f, 0, 12)}};
   LightmapPage& page = pack.lightmaps[0];
   for (std::size_t i = 0; i < page.irradiance.size(); ++i) {

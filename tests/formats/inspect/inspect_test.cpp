@@ -140,7 +140,7 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["day"]["clock"], "UTC+02:00");
   EXPECT_EQ(json["day"]["hours"][0]["group"], nullptr);
   EXPECT_EQ(json["day"]["hours"][1]["group"], 1);
-  EXPECT_EQ(json["sections"].size(), 36u);
+  EXPECT_EQ(json["sections"].size(), 35u);
   EXPECT_EQ(json["frosted_panes"][0]["name"], "screen");
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }

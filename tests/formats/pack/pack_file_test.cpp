@@ -28,6 +28,13 @@ TEST(PackFile, ReadsWhatItWrote) {
   EXPECT_EQ(read->lightmaps.size(), 1u);
 }
 
+// An optional kind that packs had once is an unknown one now: kept, at the end.
+auto known_sections(std::span<const std::byte> file) {
+  auto sections = read_index(file)->sections;
+  std::erase_if(sections, [](const auto& section) { return !find_section_kind(section.kind); });
+  return sections;
+}
+
 // Files of format version 1: a small one, and one with every section. They must stay readable for ever; if this test
 // fails, the format has changed and needs a new version. Compressed bytes may differ between versions of zstd, so the
 // sections are compared as they are after decompression.
@@ -40,14 +47,13 @@ void expect_readable(const char* name, const Pack& expected) {
   for (const auto& source : {*pack, expected}) {
     const auto bytes = encode_pack(source);
     ASSERT_TRUE(bytes) << bytes.error().text();
-    const auto golden = *read_index(*file), now = *read_index(*bytes);
-    ASSERT_EQ(golden.sections.size(), now.sections.size());
-    for (std::size_t i = 0; i < now.sections.size(); ++i) {
-      EXPECT_EQ(golden.sections[i].kind, now.sections[i].kind);
-      if (!find_section_kind(now.sections[i].kind)) continue;
-      const auto a = section_bytes(*file, golden.sections[i]), b = section_bytes(*bytes, now.sections[i]);
+    const auto golden = known_sections(*file), now = known_sections(*bytes);
+    ASSERT_EQ(golden.size(), now.size());
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      EXPECT_EQ(golden[i].kind, now[i].kind);
+      const auto a = section_bytes(*file, golden[i]), b = section_bytes(*bytes, now[i]);
       ASSERT_TRUE(a && b);
-      EXPECT_TRUE(std::ranges::equal(a->span(), b->span())) << now.sections[i].label;
+      EXPECT_TRUE(std::ranges::equal(a->span(), b->span())) << now[i].label;
     }
   }
 }
@@ -60,6 +66,7 @@ TEST(PackFile, VersionOneStaysReadable) {
   const PackIndex index = *read_index(*file);
   for (const auto& section : index.sections) kinds.insert(section.kind);
   for (const auto& kind : kSectionKinds) EXPECT_TRUE(kinds.contains(kind.kind)) << kind.meaning;
+  EXPECT_TRUE(kinds.contains(fourcc("VLIT"))) << "light of vertices, which readers skip";
 }
 
 TEST(PackFile, FailedWriteLeavesTheOldFile) {

@@ -83,13 +83,6 @@ TEST(Pack, GeometryAndNamesComeBack) {
   EXPECT_EQ(out.sky, in.sky);
 }
 
-TEST(Pack, LightOfVerticesComesBack) {
-  const Pack in = tiny_mapped_pack(), out = round_trip(in);
-  ASSERT_EQ(out.vertex_light.irradiance.size(), in.mesh.positions.size());
-  expect_near(out.vertex_light.irradiance, in.vertex_light.irradiance, 0x1p-11f);
-  EXPECT_TRUE(round_trip(tiny_pack()).vertex_light.irradiance.empty());
-}
-
 TEST(Pack, MaterialsAndTexturesComeBack) {
   const Pack in = tiny_pack(), out = round_trip(in);
   ASSERT_EQ(out.materials.size(), 2u);

@@ -1,5 +1,5 @@
 // Fewer render passes for the same pairs of cells and lights.
-#include "player/movers/light_passes.h"
+#include "study/barczak2006/light_passes.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
@@ -96,4 +96,4 @@ TEST(MergePasses, TakesWhatIsDegenerate) {
 }
 
 }  // namespace
-}  // namespace oriel
+}  // namespace oriel::study

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace oriel {
+namespace oriel::study {
 
 // An element: its cells are drawn together, in the light of all its lights, so many lights a pass.
 struct LightPass {
@@ -22,4 +22,4 @@ std::size_t count_passes(std::span<const LightPass> elements, std::size_t lights
 // none is empty. elements: no pair of a cell and a light is in two of them, as where each is one leaf with its lights.
 std::vector<LightPass> merge_passes(std::vector<LightPass> elements, std::size_t lights_a_pass);
 
-}  // namespace oriel
+}  // namespace oriel::study

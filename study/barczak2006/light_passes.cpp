@@ -1,4 +1,4 @@
-#include "player/movers/light_passes.h"
+#include "study/barczak2006/light_passes.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "formats/core/check.h"
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 constexpr std::size_t kHalf = 0xffff;  // the largest number in half a word
@@ -200,4 +200,4 @@ std::vector<LightPass> merge_passes(std::vector<LightPass> elements, std::size_t
   return PassMerger(grouped(std::move(elements)), std::max<std::size_t>(lights_a_pass, 1)).merged();
 }
 
-}  // namespace oriel
+}  // namespace oriel::study

@@ -1,5 +1,5 @@
 // Maps of a half space of as many texels each: octahedral, hemicube, paraboloid. How often they say that light passes
-// what blocks it (a leak), or that it does not (Barczak 2006, section 4.2.1; docs/notes/movers.md).
+// what blocks it (a leak), or that it does not (Barczak 2006, section 4.2.1; docs/study/barczak2006.md).
 #include <cstdio>
 #include <functional>
 #include <random>
