@@ -10,5 +10,6 @@ namespace oriel::study {
 std::span<const gpu::ShaderSource> shader_sources();
 
 // A room's command: its options, and what draws or measures with them. arguments outlive it.
+ToolCommand bastos1999_command(ShownArguments& arguments);
 
 }  // namespace oriel::study

@@ -29,18 +29,14 @@ Result<SmallPlan> plan_with_fewer(const CensusInput& in, std::uint32_t divisor, 
   const std::vector<FoundReflector>& found = in.reflections.found.reflectors;
   SmallPlan small{found, {}, 0, 0};
   const ElapsedTime clock;
-  if (in.options.view_scheme == ViewScheme::kHemisphere) {
-    small.maps = plan_views(in.prepared.scene(), small.reflectors, in.options.views).maps;
-  } else {
-    PlannedViewOptions fewer = in.options.planned;
-    fewer.samples = std::max(1u, fewer.samples / divisor);
-    fewer.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
-    const ReflectedSurroundings surroundings(*in.prepared.accel, found, in.options.sight);
-    fewer.eyes = in.reflections.eyes;
-    KnownPlans known;
-    ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, fewer, context, small.reflectors, known));
-    small.maps = std::move(plan.maps);
-  }
+  PlannedViewOptions fewer = in.options.planned;
+  fewer.samples = std::max(1u, fewer.samples / divisor);
+  fewer.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
+  const ReflectedSurroundings surroundings(*in.prepared.accel, found, in.options.sight);
+  fewer.eyes = in.reflections.eyes;
+  KnownPlans known;
+  ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, fewer, context, small.reflectors, known));
+  small.maps = std::move(plan.maps);
   small.seconds = clock.spent();
   for (const RadianceMap& map : small.maps) small.pixels += pixels(map);
   return small;
@@ -125,11 +121,10 @@ Pack pack_of_scene(const Scene& scene, const Atlas& atlas) {
 Result<Component> pilot_reflections(const CensusInput& in, const BakedScene& coarse, Context& context) {
   ORIEL_TRY(const SmallPlan fewest, plan_with_fewer(in, kFewest, context));
   ORIEL_TRY(const SmallPlan fewer, plan_with_fewer(in, kFewer, context));
-  const bool planned = in.options.view_scheme == ViewScheme::kPlanned;
   // Greedy choice: as many pixels more with the last factor of four as with the one before.
   const double more = fewer.pixels > 0 ? std::max(1.0, 2 - fewest.pixels / fewer.pixels) : 1;
   Component c{.name = "radiance"};
-  c.seconds = planned ? kFewer * fewer.seconds : fewer.seconds;
+  c.seconds = kFewer * fewer.seconds;
   const ReflectedSurroundings surroundings(coarse.accel, fewer.reflectors, in.options.sight);
   double surround = 0;
   for (const SurroundMap& map : in.reflections.curved.maps) surround += double{1.0f * map.size} * map.size;

@@ -1,5 +1,4 @@
-// Published methods, for comparison: reflections by Bastos, Hoff, Wynn and Lastra 1999, frames of many passes by
-// Diefenbach and Badler 1997.
+// Frames of many passes by Diefenbach and Badler 1997, for comparison.
 #pragma once
 
 #include "bake/run/options.h"
@@ -10,10 +9,8 @@ namespace oriel {
 // What of BakeOptions says how reflections are baked, in that group of the help.
 std::vector<Option> method_options(const char* group, BakeOptions& options);
 
-// With Method::kBastos1999 what was not given becomes what the paper has: hemispheres of 64 viewpoints, maps of 128
-// pixels (those of four of its five reflectors, table 1), first-order reflections, Beckmann's D·G at one incidence,
-// sphere maps of equation (4). With Method::kDiefenbach1997 the lightmap is RadiosityOptions::indirect, and mirrors
-// show the scene drawn again. Error kUsage where an option is for the other method.
+// With Method::kDiefenbach1997 the lightmap is RadiosityOptions::indirect, and mirrors show the scene drawn again.
+// Error kUsage where an option is for the other method.
 Status settle_method(const Given& given, BakeOptions& options);
 
 }  // namespace oriel

@@ -91,9 +91,8 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "up to so many steps a side; 1: never",
        detail_steps(o), Use::kRare, "detail", "radiosity.md"},
       {"--radiosity", kLightmap,
-       "How diffuse light is shown: texture (the lightmap), or as Bastos et al. 1999 had it too, vertices (colours of "
-       "a "
-       "mesh that is divided until it shows the lightmap to that error, --error where none is given, or to a texel). "
+       "How diffuse light is shown: texture (the lightmap), or vertices (colours of a mesh that is divided until it "
+       "shows the lightmap to that error, --error where none is given, or to a texel). "
        "The lightmap stays in the pack",
        radiosity_form(o), Use::kRare, "radiosity", "radiosity.md#vertex-colours"},
       {"--directional", kLightmap,
@@ -116,15 +115,12 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        choice(o.target, {{"cpu", DrawnOn::kCpu}, {"gpu", DrawnOn::kGpu}}), Use::kRare, "target",
        "reflections.md#geometry-or-maps"},
       {"--views", kReflections,
-       "Viewpoints of radiance maps. planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "
-       "element: "
-       "those that show most of what eyes see in it. hemisphere:N are spread evenly, as published",
-       views(o), Use::kEveryday, "", "reflections.md"},
+       "Viewpoints of radiance maps: at most so many for each 9 m² of a reflector, and 15 in all of an element, those "
+       "that show most of what eyes see in it",
+       number(o.planned.choice.max_maps, 1, 4096), Use::kEveryday, "views_per_element", "reflections.md"},
       {"--memory", kReflections,
        "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it",
-       both(o, quantity(o.views.memory_bytes, "SIZE", parse_bytes, bytes_text), o.views.memory_bytes,
-            o.planned.memory_bytes),
-       Use::kEveryday, "map_memory"},
+       quantity(o.planned.memory_bytes, "SIZE", parse_bytes, bytes_text), Use::kEveryday, "map_memory"},
       {"--only", kReflections,
        "Bake only these, comma-separated: radiosity (always: all else shows its light), radiance (maps behind "
        "reflectors), material (kernels), transfer (movers, which stand still without it)",
@@ -150,16 +146,13 @@ std::vector<Option> reflection_options(BakeOptions& o) {
       {"--orders", kReflections,
        "Mirrors that a reflection goes by: 1 shows a mirror in a mirror as its diffuse light only",
        number(o.sight.orders, 1, 16), Use::kRare, "orders"},
-      {"--map-resolution", kReflections,
-       "Longer side of a radiance map in pixels; 0 chooses as few as show it sharp (planned), or by the material's "
-       "lobe",
-       both(o, number(o.views.map_resolution, 0, 4096), o.views.map_resolution, o.planned.map_resolution), Use::kRare,
-       "map_resolution"},
+      {"--map-resolution", kReflections, "Longer side of a radiance map in pixels; 0 chooses as few as show it sharp",
+       number(o.planned.map_resolution, 0, 4096), Use::kRare, "map_resolution"},
       {"--map-price", kReflections,
        "What a pixel of a radiance map must show to be captured: solid angle, sr on average over eyes, times "
-       "reflectance (planned). Less gives more and sharper maps: halved, about a third more pixels; 0: all that show "
+       "reflectance. Less gives more and sharper maps: halved, about a third more pixels; 0: all that show "
        "anything",
-       map_price(o), Use::kRare, "map_price", "reflections.md#which-viewpoints"},
+       number(o.planned.pixel_price, 0, 1), Use::kRare, "map_price", "reflections.md#which-viewpoints"},
   };
 }
 
@@ -192,8 +185,6 @@ BakeOptions command_line_defaults() {
   o.radiosity.error = 0.02;
   o.radiosity.fit_texels = true;
   o.radiosity.detail = kMostDetail;
-  o.views.memory_bytes = o.planned.memory_bytes = std::uint64_t{128} << 20;
-  o.planned.map_resolution = o.views.map_resolution;
   return o;
 }
 
@@ -329,7 +320,6 @@ Status settle(BakeOptions& o, const Given& given) {
 
 std::string options_json(const BakeOptions& options, std::uint64_t seed) {
   BakeOptions o = options;
-  const bool planned = o.view_scheme == ViewScheme::kPlanned;
   Json json = {{"seed", seed}};
   for (const Option& option : bake_options(o)) record(option, json);
   json.update({{"padding", o.atlas.padding},
@@ -339,7 +329,7 @@ std::string options_json(const BakeOptions& options, std::uint64_t seed) {
                {"dilation", o.radiosity.dilation},
                {"max_reflector_roughness", o.reflectors.max_roughness},
                {"min_reflector_area_m2", o.reflectors.min_area_m2},
-               {"element_m", planned ? o.planned.element_m : o.views.element_m},
+               {"element_m", o.planned.element_m},
                {"transfer_samples", o.transfer.samples}});
   return json.dump();  // names may hold any bytes
 }

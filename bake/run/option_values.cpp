@@ -104,16 +104,6 @@ OptionValue parts(BakeOptions& o) {
   return {"LIST", set, get, json};
 }
 
-OptionValue views(BakeOptions& o) {
-  const auto planned = [&o] { return o.view_scheme == ViewScheme::kPlanned; };
-  const auto count = [&o, planned] { return planned() ? o.planned.choice.max_maps : o.views.views_per_element; };
-  return {"planned:N|hemisphere:N", [&o](const std::string& typed) { return parse_views(typed, o); },
-          [planned, count] { return fmt::format("{}:{}", planned() ? "planned" : "hemisphere", count()); },
-          [planned, count] {
-            return Json{{"views", planned() ? "planned" : "hemisphere"}, {"views_per_element", count()}};
-          }};
-}
-
 OptionValue radiosity_form(BakeOptions& o) {
   const auto text = [&o]() -> std::string {
     if (!o.vertex_light) return "texture";
@@ -138,12 +128,6 @@ OptionValue eyes(BakeOptions& o) {
             for (const DVec3& p : o.eyes.points) points.push_back({p.x, p.y, p.z});
             return Json{{"eyes", name()}, {"eye_points", points}};
           }};
-}
-
-OptionValue map_price(BakeOptions& o) {
-  OptionValue value = number(o.planned.pixel_price, 0, 1);
-  value.json = [&o] { return Json(o.view_scheme == ViewScheme::kPlanned ? o.planned.pixel_price : 0); };
-  return value;
 }
 
 OptionValue sky(ImportOptions& o) {

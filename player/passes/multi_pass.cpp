@@ -15,7 +15,7 @@ std::vector<LightMirror> mirrors_of(GpuScene& scene, const FrameOptions& options
   for (const GpuReflector& reflector : scene.reflectors()) {
     const Material& m = scene.pack().materials[reflector.material];
     if (scene.is_transparent(reflector.material) || m.fresnel_map < 0 || reflector.index_count == 0) continue;
-    if (scene.kernel(reflector.material, options.kernel, false).blurs()) continue;
+    if (scene.kernel(reflector.material, false).blurs()) continue;
     const float flatness = scene.pack().reflectors[reflector.index].flatness_m;
     mirrors.push_back({reflector.index, glm::transpose(reflector.reflector_from_pack)[2],
                        flatness + 1e-5f * reflector.size, reflector.corners});

@@ -104,9 +104,8 @@ std::vector<Option> picture_options(PlayArguments& out) {
        "to compare with",
        choice(out.frame.visible_sets, kSwitch), Use::kRare, "pvs"},
       {"--lightmap-filter", kPicture,
-       "Light between texels: from four of them, or smoother from sixteen by a cubic B-spline, as the radiosity "
-       "textures of Bastos et al.; beside a chart's border and in finer cells from four. Not of a pack with vertex "
-       "colours",
+       "Light between texels: from four of them, or smoother from sixteen by a cubic B-spline; beside a chart's border "
+       "and in finer cells from four. Not of a pack with vertex colours",
        choice(out.frame.lightmap_filter, kLightmapFilters), Use::kRare, "lightmap_filter"},
       {"--no-mipmaps", kPicture,
        "Textures at full resolution at each pixel's centre, as a ray tracer without antialiasing samples them: for "

@@ -21,8 +21,8 @@ namespace oriel {
 // Of a pixel, unless told: a sawtooth edge is the first thing that people see.
 inline constexpr int kSamples = 4;
 
-// A whole way of showing reflections: that of the options, or all of them as Bastos et al. 1999 published it.
-enum class ShownMethod { kOriel, kBastos1999, kDiefenbach1997 };
+// To compare with.
+enum class ShownMethod { kOriel, kDiefenbach1997 };
 
 struct PlayArguments {
   std::string pack;

@@ -9,12 +9,10 @@ namespace oriel {
 std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
   return {
       {"--method", group,
-       "As published, to compare with, for packs of oriel-bake --method likewise. bastos1999: --reflections points "
-       "--blur constant --fill off --fresnel sphere. diefenbach1997: lamps by passes with shadow volumes, in mirrors "
-       "and by way of mirrors too, over a lightmap without their light",
-       choice(out.method, {{"oriel", ShownMethod::kOriel},
-                           {"bastos1999", ShownMethod::kBastos1999},
-                           {"diefenbach1997", ShownMethod::kDiefenbach1997}}),
+       "To compare with, for packs of oriel-bake --method likewise. diefenbach1997: lamps by passes with shadow "
+       "volumes, "
+       "in mirrors and by way of mirrors too, over a lightmap without their light",
+       choice(out.method, {{"oriel", ShownMethod::kOriel}, {"diefenbach1997", ShownMethod::kDiefenbach1997}}),
        Use::kRare, "method"},
       {"--shadow-points", group, "Of --method diefenbach1997: points of a lamp that has a size, each with its passes",
        number(out.frame.multi_pass.points, 1, kMaxLightPoints), Use::kRare, "shadow_points"},
@@ -28,9 +26,8 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
        "last mirror alone does",
        choice(out.frame.multi_pass.bent_shadows, kSwitch), Use::kRare, "bent_shadows"},
       {"--reflections", group,
-       "What reflectors show: as the bake chose, rays marched through their radiance maps, the maps' pixels as points "
-       "as Bastos et al. published it, the mirrored scene drawn again, or nothing. Reflectors without maps always show "
-       "the mirrored scene",
+       "What reflectors show: as the bake chose, rays marched through their radiance maps, the maps' meshes, the "
+       "mirrored scene drawn again, or nothing. Reflectors without maps always show the mirrored scene",
        choice(out.frame.reflections, kReflections), Use::kEveryday, "reflections"},
       {"--orders", group,
        "Reflectors on the way of a reflection: 1 shows a mirror in a mirror as its diffuse light only. Without it: 2, "
@@ -39,47 +36,13 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
       {"--maps", group,
        "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 shows none",
        number(out.frame.maps_per_element, 0, 64), Use::kRare, "maps"},
-      {"--select", group,
-       "Which maps: taken from the direction nearest to the mirrored eye's, or from the nearest place",
-       choice(out.frame.selection, kSelections), Use::kRare, "select"},
-      {"--blur", group,
-       "K's width in the image: by the distance of what is reflected, one kernel for all of an image of fewer pixels "
-       "as Bastos et al. published it (of the reflector's mean distance), or as sharp as a mirror. Lamps that a "
-       "glossy reflector's maps leave out are exact for the first two",
+      {"--blur", group, "K's width in the image: by the distance of what is reflected, or as sharp as a mirror",
        choice(out.frame.blur, kBlurs), Use::kRare, "blur"},
-      {"--fill", group,
-       "Whether pixels of a reflected image that no map tells of are filled from beside; off: black, as published. Not "
-       "with --blur distance, which reads around each pixel",
-       choice(out.frame.fill, kSwitch), Use::kRare, "fill"},
-      {"--kernel", group,
-       "K as the lobe, which leaves the mirror direction at grazing angles, or centred on the mirror ray as Bastos et "
-       "al. published it; not of lamps that a glossy reflector's maps leave out",
-       choice(out.frame.kernel, kKernelPlaces), Use::kRare, "kernel"},
-      {"--fresnel", group,
-       "R from the exact table by angle, or from the sphere map at the reflected vectors of vertices, as Bastos et al. "
-       "published it",
-       choice(out.frame.reflectance, kReflectances), Use::kRare, "fresnel"},
-      {"--sphere-cells", group,
-       "Of --fresnel sphere: a reflector is divided into so many cells a side, at whose corners the sphere map is "
-       "looked up",
-       number(out.frame.sphere_cells, 1, 256), Use::kRare, "sphere_cells"},
   };
 }
 
 std::string settle_method(const Given& given, PlayArguments& out) {
   FrameOptions& frame = out.frame;
-  if (out.method == ShownMethod::kBastos1999) {
-    const auto clash = [&](const char* option, bool differs) { return given.has(option) && differs; };
-    for (const auto& [option, differs] : {std::pair{"--reflections", frame.reflections != Reflections::kPoints},
-                                          {"--blur", frame.blur == Blur::kDistance},
-                                          {"--kernel", frame.kernel == KernelPlace::kLobe}})
-      if (clash(option, differs)) return fmt::format("found {} of another method with --method bastos1999", option);
-    frame.reflections = Reflections::kPoints;
-    if (!given.has("--blur")) frame.blur = Blur::kConstant;
-    if (!given.has("--fill")) frame.fill = false;
-    if (!given.has("--fresnel")) frame.reflectance = Reflectance::kSphereMap;
-    frame.kernel = KernelPlace::kCentred;
-  }
   if (out.method == ShownMethod::kDiefenbach1997) {
     if (given.has("--reflections") && frame.reflections != Reflections::kGeometry &&
         frame.reflections != Reflections::kOff)
@@ -88,8 +51,6 @@ std::string settle_method(const Given& given, PlayArguments& out) {
     frame.multi_pass.on = true;
     frame.mover_lights = MoverLights::kHarmonics;  // the lightmap has no light for movers' shadows to take
   }
-  if (!frame.fill && frame.blur == Blur::kDistance)
-    return "--fill off needs --blur constant or off: a blur by distance reads around each pixel";
   return {};
 }
 
@@ -107,9 +68,7 @@ std::string other_method(const Pack& pack, const PlayArguments& arguments) {
   if (arguments.method != ShownMethod::kDiefenbach1997 && baked == "diefenbach1997")
     return "the pack is of oriel-bake --method diefenbach1997: its lightmap is without the light of lamps, which "
            "--method diefenbach1997 adds";
-  if (arguments.method != ShownMethod::kBastos1999 || pack.reflectors.empty() || baked == "bastos1999") return {};
-  return "the pack is not of oriel-bake --method bastos1999: its maps, kernels and sphere maps are not as published, "
-         "and lamps are shown beside its maps";
+  return {};
 }
 
 }  // namespace oriel

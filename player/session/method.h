@@ -1,4 +1,4 @@
-// How reflections are shown: the options, and the published method that sets all of them (Bastos et al. 1999).
+// How reflections are shown, and a method to compare with.
 #pragma once
 
 #include "formats/cli/command.h"
