@@ -31,8 +31,8 @@ int run(int argc, char** argv) {
                           .help = "oriel-study: draws and measures a scene as published systems did, to compare with.",
                           .footer = kFooter,
                           .options = {},
-                          .commands = {barczak2006_command(arguments), diefenbach1997_command(arguments),
-                                       herf1997_command(arguments, herf1997)}}};
+                          .commands = {barczak2006_command(arguments), bastos1999_command(arguments),
+                                       diefenbach1997_command(arguments), herf1997_command(arguments, herf1997)}}};
   const auto parsed = parse(line, argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const Status done = std::get<const ToolCommand*>(parsed)->run();

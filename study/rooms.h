@@ -14,5 +14,6 @@ std::span<const gpu::ShaderSource> shader_sources();
 ToolCommand diefenbach1997_command(ShownArguments& arguments);
 ToolCommand herf1997_command(ShownArguments& arguments, Herf1997Settings& settings);
 ToolCommand barczak2006_command(ShownArguments& arguments);
+ToolCommand bastos1999_command(ShownArguments& arguments);
 
 }  // namespace oriel::study

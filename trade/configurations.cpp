@@ -76,7 +76,7 @@ class Planner {
 
   void reflections() {
     if (!facts_.planar && !facts_.curved) {
-      skip("views, map resolution, reflections, maps, blur, kernel, fresnel",
+      skip("views, map resolution, reflections, maps, blur",
            "no reflector that people can see, so there is nothing that they change");
       return;
     }
@@ -84,37 +84,27 @@ class Planner {
     glossy();
     for (const std::string& size : either({"128"}, {"64", "128", "256"}))
       add("map resolution", size, {{"--map-resolution", size}}, {});
-    add("fresnel", "sphere", {}, {{"--fresnel", "sphere"}}, "sphere map (Bastos 1999)");
     add("reflections", "off", {}, {{"--reflections", "off"}});
   }
 
   void planar() {
     if (!facts_.planar) {
-      skip("views, reflections points and geometry, maps, select", "no planar reflector");
+      skip("views, reflections geometry, maps", "no planar reflector");
       return;
     }
     const Settings maps_baked{{"--reflections", "maps"}};
     add("reflections", "march", maps_baked, {{"--reflections", "march"}});
-    add("reflections", "points", maps_baked, {{"--reflections", "points"}}, "point splatting (Bastos 1999)");
-    add("reflections", "geometry", {{"--reflections", "geometry"}}, {});
-    for (const std::string& views : either({"2"}, {"1", "2", "4"}))
-      add("views", "planned:" + views, {{"--views", "planned:" + views}}, {});
-    for (const std::string& views : either({"16"}, {"4", "16", "64"}))
-      add("views", "hemisphere:" + views, {{"--views", "hemisphere:" + views}}, {}, "uniform hemisphere (Bastos 1999)");
-    const Settings published{{"--method", "bastos1999"}};
-    add("as published", "maps", published, published, "all of Bastos 1999");
+    add("reflections", "geometry", {{"--reflections", "geometry"}}, {}, "mirrored geometry (Diefenbach 1997)");
+    for (const std::string& views : either({"2"}, {"1", "2", "4"})) add("views", views, {{"--views", views}}, {});
     for (const std::string& maps : either({"1"}, {"1", "4", "8"})) add("maps", maps, maps_baked, {{"--maps", maps}});
-    if (!quick_) add("select", "distance", maps_baked, {{"--select", "distance"}}, "nearest eye (Bastos 1999)");
   }
 
   void glossy() {
     if (!facts_.glossy) {
-      skip("blur, kernel", "no glossy reflector: every one is a mirror");
+      skip("blur", "no glossy reflector: every one is a mirror");
       return;
     }
-    add("blur", "constant", {}, {{"--blur", "constant"}}, "constant kernel (Bastos 1999)");
     add("blur", "off", {}, {{"--blur", "off"}});
-    if (!quick_) add("kernel", "centred", {}, {{"--kernel", "centred"}}, "kernel about the mirror ray (Bastos 1999)");
   }
 
   void movers() {

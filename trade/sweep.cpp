@@ -79,7 +79,7 @@ class Sweep {
   // A first bake, as quick as can be, tells what the scene has.
   Status survey_scene() {
     constexpr std::size_t kQuickCameras = 2, kCameras = 4;
-    const Settings settings{{"--texel", "50cm"},        {"--samples", "16"}, {"--views", "hemisphere:1"},
+    const Settings settings{{"--texel", "50cm"},        {"--samples", "16"}, {"--views", "1"},
                             {"--map-resolution", "16"}, {"--sh-bands", "2"}, {"--transfer", "unshadowed"}};
     const std::string key = bake_key(settings, o_.seed, "");
     ORIEL_TRY(const Measures known,

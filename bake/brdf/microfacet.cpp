@@ -72,9 +72,4 @@ DVec3 Microfacet::sample_visible_normal(const DVec3& wo, const DVec2& u) const {
   return glm::normalize(DVec3(alpha_x * n.x, alpha_y * n.y, std::max(1e-12, n.z)));
 }
 
-double v_cavity_g(const DVec3& wo, const DVec3& wi, const DVec3& h) {
-  const double both = 2 * h.z / glm::dot(wo, h);
-  return std::clamp(std::min(both * wo.z, both * wi.z), 0.0, 1.0);
-}
-
 }  // namespace oriel

@@ -40,7 +40,4 @@ inline DVec3 reflect_at(const DVec3& w, const DVec3& h) {
   return 2 * glm::dot(w, h) * h - w;
 }
 
-// G of the V-shaped grooves of Cook and Torrance 1982, for comparison: it knows no width.
-double v_cavity_g(const DVec3& wo, const DVec3& wi, const DVec3& h);
-
 }  // namespace oriel

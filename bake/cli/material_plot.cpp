@@ -65,7 +65,7 @@ std::vector<Option> plot_options(MaterialPlotArguments& args) {
       {"--alpha", kPlot, "Width of the lobe: the square of glTF's roughness", number(args.alpha, 1e-4, 1),
        Use::kEveryday},
       {"--model", kPlot, "Distribution of K's facets",
-       choice(args.model, {{"ggx", KernelModel::kGgx}, {"beckmann", KernelModel::kBeckmann}}), Use::kEveryday},
+       choice(args.model, {{"ggx", FacetModel::kGgx}, {"beckmann", FacetModel::kBeckmann}}), Use::kEveryday},
       {"--no-pictures", kPlot, "CSV only: gnuplot is not asked for", flag(args.pictures, false), Use::kEveryday},
   };
 }

@@ -14,7 +14,7 @@ struct MaterialPlotArguments {
   std::string plot;  // a name; empty: none
   std::filesystem::path folder;
   float alpha = 0.1f;
-  KernelModel model = KernelModel::kGgx;
+  FacetModel model = FacetModel::kGgx;
   bool pictures = true;
 };
 

@@ -113,17 +113,16 @@ std::vector<double> sampled_weights(const LobeFunction& lobe, double cos_theta, 
 
 }  // namespace
 
-BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta, const KernelOptions& options) {
+BrdfKernel make_kernel(float alpha, const LobeOfWidth& lobe_of, float cos_theta, const KernelOptions& options) {
   const double a = alpha <= 1 ? std::max(alpha, 0.0f) : 1;  // NaN: 1
   const double c = cos_theta <= 1 ? std::max(cos_theta, 1e-4f) : 1;
   BrdfKernel kernel;
-  kernel.model = model;
   kernel.alpha = static_cast<float>(a);
   kernel.cos_theta = static_cast<float>(c);
   kernel.weights = {1.0f};
   if (a < kMirrorBelow) return kernel;
 
-  const LobeFunction lobe = microfacet_lobe(model, options.form, a);
+  const LobeFunction lobe = lobe_of(a);
   const std::vector<KernelNode> nodes = tangent_nodes(lobe, a, c);
   const Extent extent = choose_extent(nodes, a, options);
   kernel.half_extent = static_cast<float>(extent.half_extent);
@@ -137,6 +136,11 @@ BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta, const Ke
   kernel.weights.resize(weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i) kernel.weights[i] = static_cast<float>(weights[i] / sum);
   return kernel;
+}
+
+BrdfKernel make_kernel(float alpha, float cos_theta, const KernelOptions& options) {
+  return make_kernel(
+      alpha, [](double a) { return microfacet_lobe(FacetModel::kGgx, a); }, cos_theta, options);
 }
 
 }  // namespace oriel

@@ -2,24 +2,9 @@
 
 namespace oriel {
 
-double gaussian_d(double cos_theta, double alpha) {
-  if (cos_theta <= 0) return 0;
-  const double angle = std::acos(std::min(cos_theta, 1.0)) / alpha;
-  return std::exp(-angle * angle) / (kPiD * alpha * alpha);
-}
-
-LobeFunction microfacet_lobe(KernelModel model, LobeForm form, double alpha) {
-  if (model == KernelModel::kGaussian)
-    return [=](const DVec3& wo, const DVec3& wi, const DVec3& h) {
-      if (wi.z <= 0) return 0.0;
-      return gaussian_d(h.z, alpha) * (form == LobeForm::kD ? 1.0 : v_cavity_g(wo, wi, h)) / (4 * wo.z);
-    };
-  const Microfacet facets(model == KernelModel::kGgx ? FacetModel::kGgx : FacetModel::kBeckmann, alpha);
-  if (form == LobeForm::kLobe)
-    return [=](const DVec3& wo, const DVec3& wi, const DVec3& h) { return facets.f_cos(wo, wi, h); };
-  return [=](const DVec3& wo, const DVec3& wi, const DVec3& h) {
-    if (wi.z <= 0) return 0.0;
-    return facets.d(h) * (form == LobeForm::kDg ? v_cavity_g(wo, wi, h) : 1.0) / (4 * wo.z);
+LobeFunction microfacet_lobe(FacetModel model, double alpha) {
+  return [facets = Microfacet(model, alpha)](const DVec3& wo, const DVec3& wi, const DVec3& h) {
+    return facets.f_cos(wo, wi, h);
   };
 }
 

@@ -4,23 +4,13 @@
 #include <vector>
 
 #include "bake/brdf/compensation.h"
+#include "bake/brdf/microfacet.h"
 #include "formats/assets/brdf_kernel.h"
 
 namespace oriel {
 
-// Which shadowing a lobe has. Divided by 4 cosθo, D G is the BRDF times cosθi without Fresnel's factor. A Gaussian has
-// no Smith's G2: its kLobe is its kDg.
-enum class LobeForm {
-  kD,     // none: the distribution alone
-  kDg,    // the V-cavities' G (Cook and Torrance 1981), as in Bastos et al. 1999, eq. (4)
-  kLobe,  // the height-correlated G2 of Smith (Heitz 2014): what a path tracer sees, and packs hold
-};
-
-// Density per steradian of half vectors at cosθ from the normal by Cook and Torrance's Gaussian of angles, exp -(θ/α)²,
-// over πα²: that its integral times cosθ is 1 holds for small α only, which a kernel's sum of 1 does not need.
-double gaussian_d(double cos_theta, double alpha);
-// D(h) G / (4 cosθo), 0 below the horizon.
-LobeFunction microfacet_lobe(KernelModel model, LobeForm form, double alpha);
+// Microfacet::f_cos of facets of that width: what a path tracer sees.
+LobeFunction microfacet_lobe(FacetModel model, double alpha);
 
 // The mirror direction of an eye at cosθ in the plane y = 0, and the axes of its tangent plane.
 struct MirrorFrame {

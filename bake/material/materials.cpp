@@ -14,8 +14,6 @@
 namespace oriel {
 namespace {
 
-// A sphere map's texels lie 4e-3 from what it interpolates: 3e-5 more halves its bytes in a pack.
-constexpr float kSphereSteps = 16384;
 constexpr double kRaysAMap = 1 << 16;     // that would take as long as a map or a kernel, about
 constexpr std::uint32_t kSamples = 1024;  // per textured material
 
@@ -201,12 +199,10 @@ Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& o
   maps.kernels.resize(widths.values.size());
   std::vector<FresnelMap> fresnel_maps(needs.fresnel_owner.size());
   UnitLoop kernels{.stage = "kernels", .count = maps.kernels.size(), .rays = kRaysAMap};
-  kernels.inputs = [&](std::size_t i, Archive& key) {
-    key(widths.values[i], options.model, options.kernel, options.slices, options.by_incidence);
-  };
+  kernels.inputs = [&](std::size_t i, Archive& key) { key(widths.values[i], options.kernel, options.slices); };
   kernels.compute = [&](std::size_t i) {
-    maps.kernels[i] = make_kernel(widths.values[i], options.model, 1, options.kernel);
-    if (options.by_incidence) add_slices(maps.kernels[i], options.slices);
+    maps.kernels[i] = make_kernel(widths.values[i], 1, options.kernel);
+    add_slices(maps.kernels[i], options.slices);
     return 0;
   };
   kernels.results = [&](std::size_t i, Archive& archive) { archive(maps.kernels[i]); };
@@ -218,7 +214,6 @@ Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& o
   fresnel.compute = [&](std::size_t i) {
     const MaterialSummary& s = maps.summaries[needs.fresnel_owner[i]];
     fresnel_maps[i] = make_fresnel_map(layers_of(s), options.fresnel);
-    for (Vec3& texel : fresnel_maps[i].sphere) texel = glm::round(texel * kSphereSteps) / kSphereSteps;
     return 0;
   };
   fresnel.results = [&](std::size_t i, Archive& archive) { archive(fresnel_maps[i]); };

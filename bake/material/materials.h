@@ -33,10 +33,8 @@ struct MaterialSummary {
 std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 
 struct MaterialOptions {
-  KernelModel model = KernelModel::kGgx;
   KernelOptions kernel;
   SliceOptions slices;
-  bool by_incidence = true;    // else kernels have no slices: one incidence, as published
   float max_roughness = 0.5f;  // rougher lobes see too much of the scene for an image: they get no kernel
   FresnelMapOptions fresnel;
   double error = 0.02;  // by which a map may differ from a material's own for the material to share it, see share.h

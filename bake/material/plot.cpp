@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "formats/core/color.h"
 #include "formats/core/text.h"
 
 namespace oriel {
@@ -14,36 +13,16 @@ constexpr double kDegree = kPiD / 180;
 constexpr int kPlotted[] = {0, 60, 80};  // incidences of the lobes' pictures, degrees
 constexpr int kSide = 61;                // of such a picture
 
-struct Form {
-  const char* name;
-  LobeForm form;
-};
-constexpr Form kForms[] = {{"D", LobeForm::kD}, {"DG", LobeForm::kDg}, {"lobe", LobeForm::kLobe}};
-
 std::string index_text(const ComplexIndex& i) {
   return i.k > 0 ? fmt::format("{:.3f}+{:.3f}i", i.n, i.k) : fmt::format("{:.3f}", i.n);
 }
 
 std::string reflectance_csv(const FresnelMap& map) {
-  std::string text = "angle_deg,cos_theta,r,g,b,sphere_r,sphere_g,sphere_b\n";
+  std::string text = "angle_deg,cos_theta,r,g,b\n";
   for (int half = 0; half <= 180; ++half) {
     const double cos_theta = half == 180 ? 0 : std::cos(0.5 * half * kDegree);
     const Vec3 r = fresnel_lookup(map, static_cast<float>(cos_theta));
-    const Vec3 s = sphere_lookup(map, static_cast<float>(cos_theta));
-    text += fmt::format("{},{:.6f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f}\n", 0.5 * half, cos_theta, r.r, r.g, r.b,
-                        s.r, s.g, s.b);
-  }
-  return text;
-}
-
-// Texels outside the disk are never read, and left white.
-std::string sphere_csv(const FresnelMap& map) {
-  std::string text = "x,y,red,green,blue\n";
-  for (std::uint32_t i = 0; i < map.sphere.size(); ++i) {
-    const Vec2 p = (Vec2(i % map.sphere_size, i / map.sphere_size) + 0.5f) / float(map.sphere_size) * 2.0f - 1.0f;
-    const auto code = [&](float v) { return glm::dot(p, p) > 1 ? 255L : std::lround(255 * srgb_from_linear(v)); };
-    const Vec3& r = map.sphere[i];
-    text += fmt::format("{:.4f},{:.4f},{},{},{}\n", p.x, p.y, code(r.r), code(r.g), code(r.b));
+    text += fmt::format("{},{:.6f},{:.5f},{:.5f},{:.5f}\n", 0.5 * half, cos_theta, r.r, r.g, r.b);
   }
   return text;
 }
@@ -59,19 +38,16 @@ double cone_deg(const KernelSlice& slice, double share) {
   return 2 * std::atan(at * at * slice.radial_extent / 2) / kDegree;
 }
 
-void add_incidences(KernelModel model, double alpha, std::string& incidence, std::string& radial) {
-  for (const Form& form : kForms) {
-    const LobeFunction lobe = microfacet_lobe(model, form.form, alpha);
-    for (const int angle : {0, 15, 30, 45, 60, 70, 75, 80, 85, 89}) {
-      const KernelSlice s = make_slice(lobe, alpha, angle == 0 ? 1 : std::cos(angle * kDegree));
-      incidence += fmt::format("{},{},{:.6f},{:.5f},{:.3f},{:.3f},{:.3f},{:.5f},{:.5f},{:.5f}\n", form.name, angle,
-                               s.cos_theta, s.albedo, s.tilt_rad / kDegree, cone_deg(s, 0.5), cone_deg(s, 0.9), s.shift,
-                               s.width.x, s.width.y);
-      for (std::size_t i = 0; i < s.radial.size(); ++i) {
-        const double root = static_cast<double>(i) / static_cast<double>(s.radial.size() - 1);
-        radial += fmt::format("{},{},{:.4f},{:.5f}\n", form.name, angle,
-                              2 * std::atan(root * root * s.radial_extent / 2) / kDegree, s.radial[i]);
-      }
+void add_incidences(const LobeFunction& lobe, double alpha, std::string& incidence, std::string& radial) {
+  for (const int angle : {0, 15, 30, 45, 60, 70, 75, 80, 85, 89}) {
+    const KernelSlice s = make_slice(lobe, alpha, angle == 0 ? 1 : std::cos(angle * kDegree));
+    incidence +=
+        fmt::format("{},{:.6f},{:.5f},{:.3f},{:.3f},{:.3f},{:.5f},{:.5f},{:.5f}\n", angle, s.cos_theta, s.albedo,
+                    s.tilt_rad / kDegree, cone_deg(s, 0.5), cone_deg(s, 0.9), s.shift, s.width.x, s.width.y);
+    for (std::size_t i = 0; i < s.radial.size(); ++i) {
+      const double root = static_cast<double>(i) / static_cast<double>(s.radial.size() - 1);
+      radial += fmt::format("{},{:.4f},{:.5f}\n", angle, 2 * std::atan(root * root * s.radial_extent / 2) / kDegree,
+                            s.radial[i]);
     }
   }
 }
@@ -93,54 +69,33 @@ std::string lobe_csv(const LobeFunction& lobe, double alpha, int angle) {
   return text;
 }
 
-// Of a form and a material.
-constexpr const char* kShares = R"(set title '{0}: share within a cone'
-set size noratio
-set grid
-set xlabel 'half angle, degrees'
-unset ylabel
-plot [0:90] [0:1] for [a in '0 60 80'] '{1}_radial.csv' skip 1 \
-  using (strcol(1) eq '{0}' && strcol(2) eq a ? $3 : 1/0):4 with lines lw 2 title a.' degrees'
-)";
-
 std::string script(const NamedMaterial& material) {
   const std::string& name = material.name;
   std::string lobes;
-  for (const Form& form : kForms) {
-    for (const int angle : kPlotted)
-      lobes += fmt::format(
-          "set title '{0} at {1} degrees'\n"
-          "set size ratio -1\nunset grid\nset xlabel 'across'\nset ylabel 'along, towards the normal'\n"
-          "plot '{2}_{0}_{1}.csv' skip 1 using 1:2:3 with image notitle, \\\n"
-          "  $mirror with points pt 1 ps 1.6 lw 5 lc 'white' notitle, "
-          "$mirror with points pt 1 ps 1.4 lw 2 lc 'black' notitle\n",
-          form.name, angle, name);
-    lobes += fmt::format(kShares, form.name, name);
-  }
+  for (const int angle : kPlotted)
+    lobes += fmt::format(
+        "set title 'at {0} degrees'\n"
+        "set size ratio -1\nunset grid\nset xlabel 'across'\nset ylabel 'along, towards the normal'\n"
+        "plot '{1}_lobe_{0}.csv' skip 1 using 1:2:3 with image notitle, \\\n"
+        "  $mirror with points pt 1 ps 1.6 lw 5 lc 'white' notitle, "
+        "$mirror with points pt 1 ps 1.4 lw 2 lc 'black' notitle\n",
+        angle, name);
   return fmt::format(
       R"(set datafile separator ','
-set terminal pngcairo size 1100,480 font 'sans,11'
+set terminal pngcairo size 700,480 font 'sans,11'
 set output '{0}_reflectance.png'
-set multiplot layout 1,2 title 'R of {0}, alpha {1}'
-set size ratio -1
-unset border
-unset tics
-plot [-1:1] [-1:1] '{0}_sphere.csv' skip 1 using 1:2:3:4:5 with rgbimage notitle
-set size noratio
-set border
-set tics
+set title 'R of {0}, alpha {1}'
 set grid
 set key bottom
 set xlabel 'angle between reflected vector and normal, degrees'
 set ylabel 'reflectance'
 plot [-90:90] [0:1.02] for [side in '-1 1'] for [k=3:5] '{0}_reflectance.csv' skip 1 using (side*$1):k with lines \
   lc rgb word('red #109010 blue', k-2) lw 2 title (side > 0 ? word('R G B', k-2) : '')
-unset multiplot
 reset
 set datafile separator ','
-set terminal pngcairo size 1300,1080 font 'sans,11'
+set terminal pngcairo size 1300,400 font 'sans,11'
 set output '{0}_kernel.png'
-set multiplot layout 3,4 title 'K of {0}, alpha {1}'
+set multiplot layout 1,4 title 'K of {0}, alpha {1}'
 set palette defined (0 '#000020', 0.05 '#203080', 0.3 '#c04060', 1 '#ffffc0')
 unset colorbox
 set key bottom right
@@ -149,7 +104,14 @@ set autoscale fix
 $mirror << end
 0,0
 end
-{2}unset multiplot
+{2}set title 'share within a cone'
+set size noratio
+set grid
+set xlabel 'half angle, degrees'
+unset ylabel
+plot [0:90] [0:1] for [a in '0 60 80'] '{0}_radial.csv' skip 1 \
+  using (strcol(1) eq a ? $2 : 1/0):3 with lines lw 2 title a.' degrees'
+unset multiplot
 )",
       name, material.lobe.alpha, lobes);
 }
@@ -179,21 +141,18 @@ std::optional<NamedMaterial> material_by_name(std::string_view name) {
   return std::nullopt;
 }
 
-std::vector<PlotFile> plot_files(const NamedMaterial& material, KernelModel model) {
+std::vector<PlotFile> plot_files(const NamedMaterial& material, FacetModel model) {
   const FresnelMap map = make_fresnel_map({.base = material.lobe});
   const double alpha = material.lobe.alpha;
-  std::string incidence =
-      "form,angle_deg,cos_theta,albedo,tilt_deg,cone50_deg,cone90_deg,shift,width_across,width_along\n";
-  std::string radial = "form,angle_deg,half_angle_deg,share\n";
-  add_incidences(model, alpha, incidence, radial);
+  const LobeFunction lobe = microfacet_lobe(model, alpha);
+  std::string incidence = "angle_deg,cos_theta,albedo,tilt_deg,cone50_deg,cone90_deg,shift,width_across,width_along\n";
+  std::string radial = "angle_deg,half_angle_deg,share\n";
+  add_incidences(lobe, alpha, incidence, radial);
   std::vector<PlotFile> files{{material.name + "_reflectance.csv", reflectance_csv(map)},
-                              {material.name + "_sphere.csv", sphere_csv(map)},
                               {material.name + "_incidence.csv", std::move(incidence)},
                               {material.name + "_radial.csv", std::move(radial)}};
-  for (const Form& form : kForms)
-    for (const int angle : kPlotted)
-      files.push_back({fmt::format("{}_{}_{}.csv", material.name, form.name, angle),
-                       lobe_csv(microfacet_lobe(model, form.form, alpha), alpha, angle)});
+  for (const int angle : kPlotted)
+    files.push_back({fmt::format("{}_lobe_{}.csv", material.name, angle), lobe_csv(lobe, alpha, angle)});
   files.push_back({material.name + ".gp", script(material)});
   return files;
 }

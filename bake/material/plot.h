@@ -1,4 +1,4 @@
-// K and R of a material as tables and as a gnuplot script, in the manner of Bastos et al. 1999, figure 6.
+// K and R of a material as tables and as a gnuplot script (after Bastos et al. 1999, figure 6).
 #pragma once
 
 #include <optional>
@@ -25,11 +25,9 @@ struct PlotFile {
   std::string name, text;
 };
 
-// NAME_reflectance.csv: R by angle from the table and from the sphere map; NAME_sphere.csv: the sphere map, sRGB codes;
-// NAME_incidence.csv and NAME_radial.csv: where K's lobe lies and how it spreads, by incidence, for D alone, D·G of
-// Cook and Torrance, and the lobe (LobeForm); NAME_FORM_ANGLE.csv: each of these around the mirror direction, relative
-// to its peak; NAME.gp, last: the script that draws NAME_reflectance.png and NAME_kernel.png of them.
-// material.lobe.alpha: [1e-4, 1].
-std::vector<PlotFile> plot_files(const NamedMaterial& material, KernelModel model);
+// NAME_reflectance.csv: R by angle; NAME_incidence.csv and NAME_radial.csv: where K's lobe lies and how it spreads, by
+// incidence; NAME_lobe_ANGLE.csv: the lobe around the mirror direction, relative to its peak; NAME.gp, last: the script
+// that draws NAME_reflectance.png and NAME_kernel.png of them. material.lobe.alpha: [1e-4, 1].
+std::vector<PlotFile> plot_files(const NamedMaterial& material, FacetModel model);
 
 }  // namespace oriel

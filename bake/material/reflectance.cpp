@@ -33,16 +33,6 @@ float distance(const Vec3& a, const Vec3& b) {
   return max_component(glm::abs(a - b));
 }
 
-// Of layers that are smooth: Fresnel's factor alone.
-Vec3 smooth_fresnel(const SpecularLayers& layers, double cos_theta) {
-  const Vec3 coat = layers.coat > 0 ? layers.coat * specular_fresnel(layers.coat_lobe(), cos_theta) : Vec3(0);
-  return coat + (Vec3(1) - coat) * specular_fresnel(layers.base, cos_theta);
-}
-
-Vec3 equation_4(const SpecularLayers& layers, double cos_theta) {
-  return unit(smooth_fresnel(layers, cos_theta) / static_cast<float>(std::max(cos_theta * cos_theta, 1e-6)));
-}
-
 // Entries doubled until those between them are where interpolation puts them.
 std::vector<Vec3> make_table(const ExactLayers& exact, const FresnelMapOptions& options) {
   std::vector<Vec3> table;
@@ -74,10 +64,6 @@ Vec3 ExactLayers::operator()(double cos_theta) const {
   return Vec3(coat) + (1 - coat) * base_(cos_theta);
 }
 
-float sphere_map_cos_theta(float r) {
-  return 1 - unit(r) * unit(r);
-}
-
 FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOptions& options) {
   const SpecularLayers checked = sane(layers);
   FresnelMap map;
@@ -88,33 +74,11 @@ FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOption
       const double root = static_cast<double>(i) / (options.factor_entries - 1.0);
       map.factor.push_back(unit(specular_fresnel(checked.base, root * root)));
     }
-  map.sphere_size = options.sphere_size;
-  map.sphere.reserve(std::size_t{map.sphere_size} * map.sphere_size);
-  for (std::uint32_t y = 0; y < map.sphere_size; ++y)
-    for (std::uint32_t x = 0; x < map.sphere_size; ++x) {
-      const Vec2 p = (Vec2(x, y) + 0.5f) / static_cast<float>(map.sphere_size) * 2.0f - 1.0f;
-      const float cos_theta = sphere_map_cos_theta(glm::length(p));
-      map.sphere.push_back(options.equation_4 ? equation_4(checked, cos_theta) : fresnel_lookup(map, cos_theta));
-    }
   return map;
 }
 
 Vec3 fresnel_lookup(const FresnelMap& map, float cos_theta) {
   return lookup_by_cosine(map.table, cos_theta);
-}
-
-Vec3 sphere_lookup(const FresnelMap& map, float cos_theta) {
-  if (map.sphere.empty()) return Vec3(0);
-  const auto last = static_cast<float>(map.sphere_size - 1);
-  const float r = std::sqrt(1 - unit(cos_theta)), x = (r + 1) * 0.5f * static_cast<float>(map.sphere_size) - 0.5f;
-  const float y = 0.5f * last, left = std::clamp(std::floor(x), 0.0f, last), low = std::floor(y);
-  const auto at = [&](float i, float j) {
-    return map.sphere[static_cast<std::size_t>(std::min(j, last)) * map.sphere_size +
-                      static_cast<std::size_t>(std::min(i, last))];
-  };
-  const float fx = std::clamp(x - left, 0.0f, 1.0f), fy = y - low;
-  return glm::mix(glm::mix(at(left, low), at(left + 1, low), fx),
-                  glm::mix(at(left, low + 1), at(left + 1, low + 1), fx), fy);
 }
 
 std::vector<Vec2> make_split_table(const FresnelCurve& curve, float alpha, std::uint32_t entries) {

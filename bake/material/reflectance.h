@@ -11,27 +11,19 @@ struct FresnelMapOptions {
   double error = 7e-4;             // of the 1-D table between its entries, absolute, where max_entries allow
   std::uint32_t min_entries = 65;  // at least 2; doubled (2 n - 1) until the error is kept
   std::uint32_t max_entries = 1025;
-  std::uint32_t sphere_size = 64;     // 0: no sphere map
-  bool equation_4 = false;            // what the sphere map holds, see make_fresnel_map
   std::uint32_t factor_entries = 65;  // at least 2; a mirror has none
 };
 inline void fields(Archive& archive, FresnelMapOptions& o) {
-  archive(o.error, o.min_entries, o.max_entries, o.sphere_size, o.equation_4, o.factor_entries);
+  archive(o.error, o.min_entries, o.max_entries, o.factor_entries);
 }
 
-// Both maps of R. Numbers outside their ranges are clamped, NaN counts as 0. alpha below kMirrorAlpha is a mirror: R is
-// Fresnel's factor itself. The sphere map holds the same R, or with equation_4 what the paper says: F over the
-// denominator of equation (4), π N·L N·V, times k_s = π, so that a mirror seen straight reflects F; at most 1, as in a
-// texture. L is the mirror direction of V, so both cosines are θ's.
+// Numbers outside their ranges are clamped, NaN counts as 0. alpha below kMirrorAlpha is a mirror: R is Fresnel's
+// factor itself.
 FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOptions& options = {});
 
 // R at a direction, from the table: linear between entries; cos_theta is clamped to [0,1], NaN counts as 0. 0 for an
 // empty table.
 Vec3 fresnel_lookup(const FresnelMap& map, float cos_theta);
-// The same from the sphere map, bilinear as the player reads it, along the x axis of the map. 0 where there is none.
-Vec3 sphere_lookup(const FresnelMap& map, float cos_theta);
-// cosθ of the sphere map at distance r from its centre (fresnel_map.h); r beyond the rim counts as 1.
-float sphere_map_cos_theta(float r);
 
 // The split form as a table, entries as FresnelMap's: {scale, bias}, see split_albedo(). For materials whose f0 is a
 // texture; error below 5e-3 beside the exact R.

@@ -158,7 +158,7 @@ KernelSlice make_slice(const LobeFunction& lobe, double alpha, double cos_theta,
 
 void add_slices(BrdfKernel& kernel, const SliceOptions& options) {
   if (kernel.size <= 1) return;
-  const LobeFunction lobe = microfacet_lobe(kernel.model, LobeForm::kLobe, kernel.alpha);
+  const LobeFunction lobe = microfacet_lobe(FacetModel::kGgx, kernel.alpha);
   const std::uint32_t count = std::max(options.count, 2u);
   kernel.slice_size = std::max(options.size | 1u, 3u);
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -29,7 +29,7 @@ DVec2 to_mirror_coordinates(double cos_theta, const DVec3& wi);
 // are within 3e-3 of the exact ones.
 KernelSlice make_slice(const LobeFunction& lobe, double alpha, double cos_theta, const SliceOptions& options = {});
 
-// All incidences of a microfacet lobe, into kernel.slices and, as transformed cosines, kernel.fits; nothing for a
+// All incidences of a GGX lobe, into kernel.slices and, as transformed cosines, kernel.fits; nothing for a
 // mirror (kernel.size 1).
 void add_slices(BrdfKernel& kernel, const SliceOptions& options = {});
 

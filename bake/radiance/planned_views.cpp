@@ -24,13 +24,12 @@ std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const E
   const Vec3 centre(0.5f * (window.lower + window.upper), 0);
   const float radius = 0.5f * glm::length(window.upper - window.lower);
   std::vector<Vec3> out;
-  for (const Vec3& direction : hemisphere_directions(options.hemisphere, Rings::kTo75)) {
+  for (const Vec3& direction : hemisphere_directions(options.hemisphere)) {
     const Vec3 eye = centre + radius * direction;
     if (is_inside(scene, pack_from_reflector(r, mirrored(eye)), radius)) out.push_back(eye);
   }
   for (const float nearer : {0.5f, 0.25f, 0.125f})
-    for (const Vec3& direction : hemisphere_directions(16, Rings::kTo75))
-      out.push_back(centre + nearer * radius * direction);
+    for (const Vec3& direction : hemisphere_directions(16)) out.push_back(centre + nearer * radius * direction);
   const std::size_t hemisphere = out.size();
   for (const ReflectedSample& s : samples) {
     if (out.size() >= hemisphere + options.mirrored_eyes) break;
@@ -207,6 +206,11 @@ std::uint64_t total_bytes(std::span<const ReflectorPlan> plans) {
 }
 
 // Pixels get dearer until all fit: what is worth least for its pixels is left out or gets coarser first.
+std::string memory_line(std::uint64_t wanted, std::uint64_t allowed) {
+  return fmt::format("radiance maps would take {:.1f} MiB of {:.1f} MiB allowed: ",
+                     static_cast<double>(wanted) / (1 << 20), static_cast<double>(allowed) / (1 << 20));
+}
+
 void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit, double price,
                 std::vector<ReflectorPlan>& plans, std::vector<std::string>& omitted) {
   const std::uint64_t wanted = total_bytes(plans);
@@ -325,7 +329,6 @@ Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, 
     append_maps(r, plans[r], out.maps);
     reflector.map_count = static_cast<std::uint32_t>(out.maps.size()) - reflector.first_map;
   }
-  out.views_per_element = options.choice.max_maps;
   return out;
 }
 

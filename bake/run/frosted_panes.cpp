@@ -5,7 +5,7 @@
 namespace oriel {
 
 Status list_frosted_panes(const BakeTask& bake, const AssembledMesh& mesh, std::vector<Warning>& omissions) {
-  if (!bake.options.with_radiance || bake.options.method != Method::kOriel) return {};
+  if (!bake.options.with_radiance) return {};
   Pack& pack = bake.pack;
   std::vector<std::string> omitted;
   ORIEL_TRY(std::vector<FoundReflector> panes, find_lit_panes(bake.accel(), bake.context, pack.emitters, omitted));

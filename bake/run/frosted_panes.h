@@ -6,8 +6,7 @@
 
 namespace oriel {
 
-// Pack::frosted_panes and the emitters that they list, where images of reflectors are baked and not as published.
-// Appends to `omissions` what is left out. Error kStopped.
+// Pack::frosted_panes and the emitters that they list. Appends to `omissions` what is left out. Error kStopped.
 Status list_frosted_panes(const BakeTask& bake, const AssembledMesh& mesh, std::vector<Warning>& omissions);
 
 }  // namespace oriel

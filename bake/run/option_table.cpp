@@ -1,7 +1,6 @@
 #include "bake/run/option_table.h"
 
 #include "bake/jobs/memory.h"
-#include "bake/run/method.h"
 #include "bake/run/option_values.h"
 #include "bake/trace/virtual_lights.h"
 #include "formats/core/json.h"
@@ -105,15 +104,12 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        choice(o.target, {{"cpu", DrawnOn::kCpu}, {"gpu", DrawnOn::kGpu}}), Use::kRare, "target",
        "oriel-bake.md#reflections"},
       {"--views", kReflections,
-       "Viewpoints of radiance maps. planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "
-       "element: "
-       "those that show most of what eyes see in it. hemisphere:N are spread evenly, as published",
-       views(o), Use::kRare, "", "notes/reflections.md"},
+       "Viewpoints of radiance maps: at most so many for each 9 m² of a reflector, and 15 in all of an element, those "
+       "that show most of what eyes see in it",
+       number(o.planned.choice.max_maps, 1, 4096), Use::kRare, "views_per_element", "notes/reflections.md"},
       {"--memory", kReflections,
        "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it",
-       both(o, quantity(o.views.memory_bytes, "SIZE", parse_bytes, bytes_text), o.views.memory_bytes,
-            o.planned.memory_bytes),
-       Use::kEveryday, "map_memory"},
+       quantity(o.planned.memory_bytes, "SIZE", parse_bytes, bytes_text), Use::kEveryday, "map_memory"},
       {"--only", kReflections,
        "Bake only these, comma-separated: radiosity (always: all else shows its light), radiance (maps behind "
        "reflectors), material (kernels), transfer (movers, which stand still without it)",
@@ -139,11 +135,8 @@ std::vector<Option> reflection_options(BakeOptions& o) {
       {"--orders", kReflections,
        "Mirrors that a reflection goes by: 1 shows a mirror in a mirror as its diffuse light only",
        number(o.sight.orders, 1, 16), Use::kRare, "orders"},
-      {"--map-resolution", kReflections,
-       "Longer side of a radiance map in pixels; 0 chooses as few as show it sharp (planned), or by the material's "
-       "lobe",
-       both(o, number(o.views.map_resolution, 0, 4096), o.views.map_resolution, o.planned.map_resolution), Use::kRare,
-       "map_resolution"},
+      {"--map-resolution", kReflections, "Longer side of a radiance map in pixels; 0 chooses as few as show it sharp",
+       number(o.planned.map_resolution, 0, 4096), Use::kRare, "map_resolution"},
   };
 }
 
@@ -171,8 +164,6 @@ BakeOptions command_line_defaults() {
   o.radiosity.error = 0.02;
   o.radiosity.fit_texels = true;
   o.radiosity.detail = kMostDetail;
-  o.views.memory_bytes = o.planned.memory_bytes = std::uint64_t{128} << 20;
-  o.planned.map_resolution = o.views.map_resolution;
   return o;
 }
 
@@ -261,7 +252,6 @@ std::vector<Option> bake_options(BakeOptions& o) {
                      "lamp), or a JSON file of groups and their nodes",
                      light_groups(o), Use::kEveryday, "light_groups", "oriel-bake.md#light-groups"});
   append(options, reflection_options(o));
-  append(options, method_options(kReflections, o));
   append(options, mover_options(o.import));
   append(options, transfer_options(o));
   options.push_back(unit_option(o.import, o.guess_unit));
@@ -272,7 +262,6 @@ std::vector<Option> bake_options(BakeOptions& o) {
 Status settle(BakeOptions& o, const Given& given) {
   RadiosityOptions& r = o.radiosity;
   o.given = given.typed();
-  ORIEL_TRY_VOID(settle_method(given, o));
   if (!o.transfer.shadowed) o.transfer.bounces = 0;
   o.error_named = given.has("--error");
   // Who says what maps are to be like wants maps.
@@ -305,7 +294,6 @@ Status settle(BakeOptions& o, const Given& given) {
 
 std::string options_json(const BakeOptions& options, std::uint64_t seed) {
   BakeOptions o = options;
-  const bool planned = o.view_scheme == ViewScheme::kPlanned;
   Json json = {{"seed", seed}};
   for (const Option& option : bake_options(o)) record(option, json);
   json.update({{"padding", o.atlas.padding},
@@ -315,7 +303,7 @@ std::string options_json(const BakeOptions& options, std::uint64_t seed) {
                {"dilation", o.radiosity.dilation},
                {"max_reflector_roughness", o.reflectors.max_roughness},
                {"min_reflector_area_m2", o.reflectors.min_area_m2},
-               {"element_m", planned ? o.planned.element_m : o.views.element_m},
+               {"element_m", o.planned.element_m},
                {"transfer_samples", o.transfer.samples}});
   return json.dump();  // names may hold any bytes
 }

@@ -104,16 +104,6 @@ OptionValue parts(BakeOptions& o) {
   return {"LIST", set, get, json};
 }
 
-OptionValue views(BakeOptions& o) {
-  const auto planned = [&o] { return o.view_scheme == ViewScheme::kPlanned; };
-  const auto count = [&o, planned] { return planned() ? o.planned.choice.max_maps : o.views.views_per_element; };
-  return {"planned:N|hemisphere:N", [&o](const std::string& typed) { return parse_views(typed, o); },
-          [planned, count] { return fmt::format("{}:{}", planned() ? "planned" : "hemisphere", count()); },
-          [planned, count] {
-            return Json{{"views", planned() ? "planned" : "hemisphere"}, {"views_per_element", count()}};
-          }};
-}
-
 OptionValue eyes(BakeOptions& o) {
   const auto name = [&o] {
     return o.eyes.source == EyeSource::kWalk ? "walk" : o.eyes.source == EyeSource::kBox ? "box" : "file";

@@ -23,7 +23,6 @@ OptionValue hidden_black(BakeOptions& o);
 OptionValue texel_means(BakeOptions& o);
 OptionValue detail_steps(BakeOptions& o);
 OptionValue parts(BakeOptions& o);  // --only
-OptionValue views(BakeOptions& o);
 OptionValue eyes(BakeOptions& o);
 OptionValue self_shadow(BakeOptions& o);
 OptionValue unit(double& unit_m, bool& guess);
@@ -33,17 +32,5 @@ OptionValue day(ImportOptions& o);
 OptionValue hours(ImportOptions& o);
 OptionValue moves(std::vector<MoverMove>& moves);  // --move
 OptionValue profiles(ImportOptions& o);            // --ies
-
-// One that planned and evenly spread viewpoints take alike.
-template <class T>
-OptionValue both(const BakeOptions& o, OptionValue value, const T& spread, T& planned) {
-  value.set = [set = value.set, &spread, &planned](const std::string& typed) -> Status {
-    ORIEL_TRY_VOID(set(typed));
-    planned = spread;
-    return {};
-  };
-  value.json = [&] { return Json(o.view_scheme == ViewScheme::kPlanned ? planned : spread); };
-  return value;
-}
 
 }  // namespace oriel

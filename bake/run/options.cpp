@@ -41,22 +41,6 @@ Result<double> parse_verify(const std::string& text) {
   return fail(ErrorCode::kUsage, "", "found '{}', expected a share such as 10% or 0.1, or off", text);
 }
 
-Status parse_views(const std::string& text, BakeOptions& options) {
-  const std::size_t colon = text.find(':');
-  const std::string scheme = text.substr(0, colon);
-  std::uint32_t count = scheme == "planned" ? options.planned.choice.max_maps : options.views.views_per_element;
-  if (colon != std::string::npos) {
-    const auto [end, error] = std::from_chars(text.data() + colon + 1, text.data() + text.size(), count);
-    if (error != std::errc() || end != text.data() + text.size()) count = 0;
-  }
-  if ((scheme != "planned" && scheme != "hemisphere") || count < 1 || count > 4096)
-    return fail(ErrorCode::kUsage, "",
-                "found '{}', expected planned or hemisphere with a number from 1 to 4096, such as planned:8", text);
-  options.view_scheme = scheme == "planned" ? ViewScheme::kPlanned : ViewScheme::kHemisphere;
-  (scheme == "planned" ? options.planned.choice.max_maps : options.views.views_per_element) = count;
-  return {};
-}
-
 Result<EyeOptions> parse_eye_source(const std::string& text) {
   EyeOptions eyes;
   if (text == "walk") return eyes;

@@ -10,7 +10,6 @@
 #include "bake/radiance/curved_reflectors.h"
 #include "bake/radiance/planned_views.h"
 #include "bake/radiance/reflectors.h"
-#include "bake/radiance/views.h"
 #include "bake/radiance/ways.h"
 #include "bake/radiosity/radiosity.h"
 #include "bake/run/light_groups.h"
@@ -23,12 +22,6 @@ namespace oriel {
 
 // Whether the lightmap holds directions: where a normal map wants them, always, never.
 enum class Directional { kAuto, kOn, kOff };
-
-// Which viewpoints radiance maps have: those that show most to the eye region, or uniform hemispheres.
-enum class ViewScheme { kPlanned, kHemisphere };
-
-// How light is baked: as Oriel does, or for comparison as Bastos et al. 1999 published reflections.
-enum class Method { kOriel, kBastos1999 };
 
 // Whether what is seen from where is found: where it is likely to pay, always, never.
 enum class VisibleSetsWanted { kAuto, kOn, kOff };
@@ -56,13 +49,10 @@ struct BakeOptions {
   LightGroupOptions light_groups;
   RadiosityOptions radiosity;  // radiosity.directional follows from the next
   Directional directional = Directional::kAuto;
-  Method method = Method::kOriel;
   ReflectorOptions reflectors;
   WaysWanted ways = WaysWanted::kAuto;
   DrawnOn target = DrawnOn::kCpu;
-  ViewScheme view_scheme = ViewScheme::kPlanned;
   PlannedViewOptions planned;
-  ViewOptions views;  // of hemispheres
   EyeOptions eyes;
   bool error_named = false;      // by the user: else radiosity.error is a wish
   bool guess_eye_height = true;  // of people over the floor: told from the file (visibility/eye_height.h), instead of
@@ -91,9 +81,6 @@ Result<double> parse_duration(const std::string& text);
 Result<double> parse_fraction(const std::string& text);
 // "10%" or "off" as a fraction, >= 0. Error kUsage.
 Result<double> parse_verify(const std::string& text);
-// "planned", "planned:8", "hemisphere" or "hemisphere:64": the number is that of maps of a reflector element, 1 to
-// 4096, and set in planned and views. Error kUsage.
-Status parse_views(const std::string& text, BakeOptions& options);
 // "walk", "box", or a file for parse_eyes(), which is read. Errors kUsage, kIo, kInvalid.
 Result<EyeOptions> parse_eye_source(const std::string& text);
 // "100" (grey) or "90,95,100" (linear Rec. 709), >= 0. Error kUsage.

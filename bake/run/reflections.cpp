@@ -67,7 +67,6 @@ bool shines(const Scene& scene) {
 Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, Context& context,
                            PlannedReflections& planned) {
   std::vector<FoundReflector>& reflectors = planned.all.found.reflectors;
-  if (options.view_scheme == ViewScheme::kHemisphere) return plan_views(accel.scene(), reflectors, options.views);
   const std::vector<FoundReflector> as_found = reflectors;
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), as_found, options.sight);
   KnownPlans known;
@@ -238,11 +237,6 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
   all.lobes = reflector_materials(materials);
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), all.lobes, options.reflectors);
   ORIEL_TRY_VOID(find_planar(options, accel, context, all));
-  if (options.method == Method::kBastos1999) {
-    if (!all.found.unplanar.empty())
-      all.omissions.emplace_back("curved reflectors: --method bastos1999 has none; they show their light as if dull");
-    return all;
-  }
   CurvedOptions curved = options.curved;
   curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
   all.curved =
@@ -318,40 +312,31 @@ Result<ReflectionReport> bake_reflections(const BakeTask& bake, PlannedReflectio
   pack.walk_grids = region.grids;
   if (planned.empty()) return report;
   std::vector<FoundReflector>& reflectors = found.reflectors;
-  const bool published = options.method == Method::kBastos1999;  // maps show the radiosity solution, lamps included
-  std::uint32_t paths = published ? 0 : 1;
+  std::uint32_t paths = 1;
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return published ? baked_radiance(baked, seen)
-                     : baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
+    return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
   };
   const std::vector<bool> is_curved = curved_triangles(accel.scene(), planned.all);
   const std::vector<bool> is_shiny = shiny_triangles(accel.scene(), planned.all);
   const OutgoingRadiance to_planar = with_lobes_of(is_curved, outgoing);
-  if (options.with_material && !published)
+  if (options.with_material)
     ORIEL_TRY_VOID(leave_out_lamps(bake, lobe_widths(materials), reflectors, report.omissions));
   const ReflectedSurroundings surroundings(accel, reflectors, options.sight);
-  if (!published) {
-    ORIEL_TRY(const LobeShares shares, lobe_shares(baked, surroundings, plan.maps, planned.all, context));
-    paths = lobe_paths(shares.planar * planned.planar_pixels() + shares.surround * planned.surround_pixels());
-  }
+  ORIEL_TRY(const LobeShares shares, lobe_shares(baked, surroundings, plan.maps, planned.all, context));
+  paths = lobe_paths(shares.planar * planned.planar_pixels() + shares.surround * planned.surround_pixels());
   const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
   std::atomic<std::uint64_t> rays{0};
   const Stage stage{context, &rays};
   const LitSurroundings lit{surroundings, to_planar};
   ORIEL_TRY(report.reuse, capture_or_keep(options, lit, stage, planned));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), stage));
-  if (!published) add_punctual_lights(accel, curved);
+  add_punctual_lights(accel, curved);
   const Judges judges{held_out_eyes(region, kHeldOutEyes, context.seed), cameras_of(region.points)};
-  if (options.view_scheme == ViewScheme::kPlanned) {
-    const ResidualOptions residual{
-        .eyes = eyes, .memory_bytes = options.planned.memory_bytes, .cameras = judges.cameras};
-    ORIEL_TRY_VOID(add_residuals(lit, residual, stage, reflectors, plan));
-  }
+  const ResidualOptions residual{.eyes = eyes, .memory_bytes = options.planned.memory_bytes, .cameras = judges.cameras};
+  ORIEL_TRY_VOID(add_residuals(lit, residual, stage, reflectors, plan));
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
   ORIEL_TRY_VOID(judge(lit, plan.maps, judges, stage, report));
-  if (!published) {
-    ORIEL_TRY(pack.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));
-  }
+  ORIEL_TRY(pack.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));
   report.rays = rays;
   pack.radiance_maps = std::move(plan.maps);
   for (const FoundReflector& r : reflectors) report.ways.push_back(r.why);

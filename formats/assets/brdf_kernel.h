@@ -7,10 +7,6 @@
 
 namespace oriel {
 
-// Distribution of the facets of a lobe D G2 / (4 cosθo), G2 height-correlated Smith: the BRDF times cosθi without
-// Fresnel's factor. kGaussian: of angles (Cook and Torrance 1981), with their G.
-enum class KernelModel : std::uint8_t { kBeckmann = 0, kGgx = 1, kGaussian = 2 };
-
 // The lobe seen at one incidence. Its directions are in stereographic coordinates of the mirror direction,
 // u = 2 tan(γ/2) for the angle γ from it: x across the plane of incidence, y in it, growing towards the surface normal.
 // They reach every direction, and are tangents where γ is small.
@@ -41,13 +37,12 @@ struct LobeFit {
   float amplitude = 1;  // integral of the lobe times cosine without Fresnel, [0, 1]
 };
 
-// K of a material. `weights` is the paper's: a square kernel over the tangent plane of the mirror direction, centred on
-// it, sampled at one incidence, with Cook and Torrance's G where a pack is baked as published; pixel (x, y) is the
-// direction (tx, ty, 1) with t = ((i + ½) / size * 2 - 1) * half_extent, that is t = tan of the angle from the mirror
-// direction. Sum of weights 1. size 1 is the mirror. `slices` is the lobe as it turns from there and stretches with
-// incidence.
+// K of a material: the lobe D G2 / (4 cosθo) of GGX facets, G2 height-correlated Smith, which is the BRDF times cosθi
+// without Fresnel's factor. `weights` is a square kernel over the tangent plane of the mirror direction, centred on it,
+// sampled at one incidence, for programs without use for slices; pixel (x, y) is the direction (tx, ty, 1) with t =
+// ((i + ½) / size * 2 - 1) * half_extent, that is t = tan of the angle from the mirror direction. Sum of weights 1.
+// size 1 is the mirror. `slices` is the lobe as it turns from there and stretches with incidence.
 struct BrdfKernel {
-  KernelModel model = KernelModel::kGgx;
   float alpha = 0;                  // microfacet width, roughness²
   float cos_theta = 1;              // incidence it was sampled at
   float half_extent = 0;            // tangent of the half angle it covers

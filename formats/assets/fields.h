@@ -21,11 +21,10 @@ inline void fields(Archive& archive, LobeFit& f) {
   archive(f.m11, f.m13, f.m22, f.m31, f.amplitude);
 }
 inline void fields(Archive& archive, BrdfKernel& k) {
-  archive(k.model, k.alpha, k.cos_theta, k.half_extent, k.energy_kept, k.size, k.weights, k.slice_size, k.slices,
-          k.fits);
+  archive(k.alpha, k.cos_theta, k.half_extent, k.energy_kept, k.size, k.weights, k.slice_size, k.slices, k.fits);
 }
 inline void fields(Archive& archive, FresnelMap& m) {
-  archive(m.alpha, m.table, m.factor, m.sphere_size, m.sphere);
+  archive(m.alpha, m.table, m.factor);
 }
 inline void fields(Archive& archive, Emitter& e) {
   archive(e.corners, e.radiance, e.two_sided);

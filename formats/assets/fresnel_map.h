@@ -18,13 +18,6 @@ struct FresnelMap {
   // F of the lobe's facets alone, [0,1]; entry i of n where the half vector is at cosθ = (i / (n-1))² from the eye. R
   // says how much of the light comes back, this what directions it comes from. Empty: from all alike.
   std::vector<Vec3> factor;
-  // The paper's sphere map, of the same reflectance or, in a pack baked as published, of equation (4), over the
-  // hemisphere of reflected vectors: sphere_size² texels, texel (x, y) at the point
-  // ((x+½), (y+½)) / sphere_size * 2 - 1 of the square, a disk of radius 1 inside it. The centre is the surface's
-  // normal, the rim grazing: the reflected vector (sinθ cosφ, sinθ sinφ, cosθ) in the surface's frame lies at √2
-  // sin(θ/2) (cosφ, sinφ), an equal-area map, so cosθ = 1 - r². Texels outside the disk hold the rim's value.
-  std::uint32_t sphere_size = 0;
-  std::vector<Vec3> sphere;
 };
 
 // Linear between the entries of a table whose entry i of n is at cosθ = (i / (n-1))². The cosine is clamped to [0,1],

@@ -60,14 +60,6 @@ std::vector<Reflector> without_maps(std::vector<Reflector> reflectors) {
   return reflectors;
 }
 
-std::vector<FresnelMap> without_spheres(std::vector<FresnelMap> maps) {
-  for (FresnelMap& map : maps) {
-    map.sphere_size = 0;
-    map.sphere.clear();
-  }
-  return maps;
-}
-
 Result<Bytes> scene_piece(const Pack& pack) {
   PieceWriter out;
   out.one(kSceneSection, pack.sky);
@@ -79,7 +71,7 @@ Result<Bytes> scene_piece(const Pack& pack) {
   out.list(kCurvedReflectorSection, pack.curved_reflectors);
   out.list(kEmitterSection, pack.emitters);
   out.list(kKernelSection, pack.kernels);
-  out.list(kFresnelSection, without_spheres(pack.fresnel_maps));
+  out.list(kFresnelSection, pack.fresnel_maps);
   out.list(kCameraSection, pack.cameras);
   out.list(kPathSection, pack.paths);
   out.list(kWalkSection, pack.walk_grids);

@@ -30,16 +30,13 @@ std::string radial_csv(const BrdfKernel& kernel) {
 }  // namespace
 
 Status Extraction::kernels() {
-  constexpr std::array kModels{"beckmann", "ggx", "gaussian"};
   for (std::size_t i = 0; i < pack_.kernels.size(); ++i) {
     const auto& kernel = pack_.kernels[i];
     const std::string name = fmt::format("brdf_kernel_{:02}", i);
     Json entry{{"kind", "brdf_kernel"},
                {"number", i},
                {"size", kernel.size},
-               {"model", kModels[static_cast<std::size_t>(kernel.model)]},
-               {"lobe",
-                kernel.slices.empty() ? "D G / (4 cos theta_o)" : "D G2 / (4 cos theta_o), G2 height-correlated Smith"},
+               {"lobe", "D G2 / (4 cos theta_o), D GGX, G2 height-correlated Smith"},
                {"alpha", kernel.alpha},
                {"cos_theta", kernel.cos_theta},
                {"half_extent", kernel.half_extent},
@@ -71,9 +68,7 @@ Status Extraction::fresnel_maps() {
   for (std::size_t i = 0; i < pack_.fresnel_maps.size(); ++i) {
     const auto& map = pack_.fresnel_maps[i];
     const std::string name = fmt::format("fresnel_map_{:02}", i);
-    Json entry{{"kind", "fresnel_map"}, {"number", i}, {"alpha", map.alpha}, {"sphere_size", map.sphere_size}};
-    if (map.sphere_size > 0)
-      ORIEL_TRY_VOID(exr(entry, "sphere", name + ".exr", rgb_image(map.sphere_size, map.sphere_size, map.sphere), "1"));
+    Json entry{{"kind", "fresnel_map"}, {"number", i}, {"alpha", map.alpha}};
     const auto entries = static_cast<std::uint32_t>(map.table.size());
     ORIEL_TRY_VOID(exr(entry, "table", name + "_table.exr", rgb_image(entries, 1, map.table), "1"));
     std::string text = "cos_theta,r,g,b\n";

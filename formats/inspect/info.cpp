@@ -177,8 +177,7 @@ Json small_maps_json(const Pack& pack, Json out) {
                               {"cosine_lobes", k.fits.size()}});
   out["fresnel_maps"] = Json::array();
   for (const auto& f : pack.fresnel_maps)
-    out["fresnel_maps"].push_back(
-        {{"alpha", f.alpha}, {"table_entries", f.table.size()}, {"sphere_size", f.sphere_size}});
+    out["fresnel_maps"].push_back({{"alpha", f.alpha}, {"table_entries", f.table.size()}});
   out["split_reflectance"] = {{"angles", pack.split_reflectance.angles},
                               {"roughnesses", pack.split_reflectance.roughnesses}};
   out["cameras"] = Json::array();
@@ -293,9 +292,8 @@ void print_material_maps(const Pack& pack) {
     low = std::min(low, map.alpha);
     high = std::max(high, map.alpha);
   }
-  fmt::print("{} Fresnel maps: alpha {:.4g} to {:.4g}, tables of {} to {} entries, sphere maps up to {} x {}\n",
-             pack.fresnel_maps.size(), low, high, least, most, pack.fresnel_maps[0].sphere_size,
-             pack.fresnel_maps[0].sphere_size);
+  fmt::print("{} Fresnel maps: alpha {:.4g} to {:.4g}, tables of {} to {} entries\n", pack.fresnel_maps.size(), low,
+             high, least, most);
   if (const SplitReflectance& split = pack.split_reflectance; !split.table.empty())
     fmt::print("split reflectance: {} angles x {} roughnesses\n", split.angles, split.roughnesses);
 }

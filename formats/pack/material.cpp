@@ -43,7 +43,8 @@ void describe(Serial& s, std::uint32_t size, KernelSlice& slice) {
 }  // namespace
 
 void describe(Serial& s, BrdfKernel& k) {
-  s.choice("kernel model", 2, k.model);
+  std::uint8_t facets = 1;  // GGX; of packs by earlier programs others too
+  s.choice("kernel model", 2, facets);
   s.reserved(3);
   s(k.alpha, k.cos_theta, k.half_extent, k.energy_kept, k.size);
   s.planes(k.weights, std::uint64_t{k.size} * k.size);
@@ -59,10 +60,12 @@ void describe(Serial& s, BrdfKernel& k) {
 void describe(Serial& s, FresnelMap& map) {
   s(map.alpha);
   const std::uint32_t entries = s.count(map.table), factors = s.count(map.factor);
-  s(map.sphere_size);
+  std::uint32_t side = 0;  // of an image of R that packs by earlier programs hold
+  s(side);
   s.planes(map.table, entries);
   s.planes(map.factor, factors);
-  s.planes(map.sphere, std::uint64_t{map.sphere_size} * map.sphere_size);
+  std::vector<Vec3> image;
+  s.planes(image, std::uint64_t{side} * side);
 }
 
 void describe(Serial& s, SplitReflectance& split) {

@@ -86,15 +86,10 @@ void validate_fresnel_maps(const Pack& pack, IssueList& list) {
   for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
     const FresnelMap& map = pack.fresnel_maps[i];
     if (!within(map.alpha, 0, 1)) list.error(601, "Fresnel map {}: found alpha {}, expected 0 to 1", i, map.alpha);
-    if (map.table.size() < 2 || map.table.size() > kMaxSide || map.sphere_size > kMaxSide ||
-        map.sphere.size() != std::size_t{map.sphere_size} * map.sphere_size)
-      list.error(602,
-                 "Fresnel map {}: found {} table entries and {} texels of a sphere map of side {}, expected at least "
-                 "2, and a square",
-                 i, map.table.size(), map.sphere.size(), map.sphere_size);
-    const auto share = [](const Vec3& v) { return within(v, 0, 1); };
-    list.each(603, "Fresnel table entries", map.table, share, "0 to 1");
-    list.each(603, "Fresnel sphere texels", map.sphere, share, "0 to 1");
+    if (map.table.size() < 2 || map.table.size() > kMaxSide)
+      list.error(602, "Fresnel map {}: found {} table entries, expected at least 2", i, map.table.size());
+    list.each(
+        603, "Fresnel table entries", map.table, [](const Vec3& v) { return within(v, 0, 1); }, "0 to 1");
   }
   list.in_section(kFresnelSection);
   for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {

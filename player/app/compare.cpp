@@ -15,6 +15,7 @@
 #include "player/navigation/poses.h"
 #include "player/output/other.h"
 #include "player/output/picture.h"
+#include "player/output/played_frame.h"
 #include "player/passes/frame.h"
 
 namespace oriel {
@@ -29,63 +30,6 @@ Result<std::uint32_t> supersampling(const PlayArguments& arguments, const FloatI
   return fail(ErrorCode::kUsage, "--size", "found {}x{}, expected a whole multiple of the reference's {}x{}", width,
               height, reference.width, reference.height);
 }
-
-// Draws the stages that are compared, as large pictures, and averages them.
-class Stages {
- public:
-  Stages(GpuScene& scene, Renderer& renderer, const View& view, const FrameOptions& options, std::uint32_t n)
-      : scene_(scene), renderer_(renderer), view_(view), options_(options), n_(n) {}
-
-  Result<PlayedFrame> draw() {
-    PlayedFrame frame;
-    ORIEL_TRY(frame.diffuse, draw_stage(Show::kD));
-    options_.count_holes = true;
-    ORIEL_TRY(frame.specular, draw_stage(Show::kMKR));
-    frame.holes = stats_.reflected_pixels > 0
-                      ? static_cast<double>(stats_.holes) / static_cast<double>(stats_.reflected_pixels)
-                      : 0;
-    if (stats_.mirror_pixels > 0)
-      frame.sharp = static_cast<double>(stats_.sharp) / static_cast<double>(stats_.mirror_pixels);
-    options_.count_holes = false;
-    ORIEL_TRY(frame.total, draw_stage(Show::kAll));
-    const std::vector<std::int32_t> materials = renderer_.read_reflective();
-    const auto blurs = [&](std::int32_t material) {
-      const Pack& pack = scene_.pack();
-      const std::int32_t kernel = pack.materials[static_cast<std::size_t>(material)].kernel;
-      return kernel >= 0 && pack.kernels[static_cast<std::size_t>(kernel)].size > 1;
-    };
-    frame.mirrors = region(materials, [&](std::int32_t m) { return m >= 0 && !blurs(m); });
-    frame.glossy = region(materials, [&](std::int32_t m) { return m >= 0 && blurs(m); });
-    frame.movers = region(materials, [](std::int32_t m) { return m == Renderer::kMoverPixel; });
-    return frame;
-  }
-
- private:
-  Result<FloatImage> draw_stage(Show show) {
-    options_.show = show;
-    ORIEL_TRY(stats_, renderer_.render(scene_, view_, options_));
-    const auto width = static_cast<std::uint32_t>(view_.width), height = static_cast<std::uint32_t>(view_.height);
-    return shrink(FloatImage{width, height, 3, renderer_.read_light()}, n_);
-  }
-
-  // Pixels of the small picture all of whose parts count.
-  template <class Counts>
-  std::vector<std::uint8_t> region(const std::vector<std::int32_t>& materials, Counts counts) const {
-    const std::size_t large = static_cast<std::size_t>(view_.width), width = large / n_,
-                      height = static_cast<std::size_t>(view_.height) / n_;
-    std::vector<std::uint8_t> out(width * height, 1);
-    for (std::size_t i = 0; i < materials.size(); ++i)
-      if (!counts(materials[i])) out[i / large / n_ * width + i % large / n_] = 0;
-    return out;
-  }
-
-  GpuScene& scene_;
-  Renderer& renderer_;
-  const View& view_;
-  FrameOptions options_;
-  FrameStats stats_;  // of the last stage
-  std::uint32_t n_;
-};
 
 Result<Camera> choose_camera(const GpuScene& scene, const PlayArguments& arguments) {
   const Pack& pack = scene.pack();
@@ -225,7 +169,7 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
     ORIEL_TRY_VOID(renderer->render(*scene, view, options));
     return compare_with_picture(reference, *renderer, arguments);
   }
-  ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, options, n).draw());
+  ORIEL_TRY(const PlayedFrame frame, draw_compared(*renderer, {*scene, view, options, n}));
   return compare_with_rendered(reference, frame, arguments);
 }
 

@@ -16,7 +16,6 @@
 #include "player/session/arguments.h"
 #include "player/session/idle_options.h"
 #include "player/session/light_settings.h"
-#include "player/session/method.h"
 #include "player/window/window.h"
 
 namespace {
@@ -81,8 +80,6 @@ Status play(PlayArguments arguments, std::chrono::steady_clock::time_point start
     return {};
   }
   ORIEL_TRY(arguments.light_settings, choose_lights(pack.pack, arguments));
-  if (const std::string note = other_method(pack.pack, arguments); !note.empty())
-    fmt::print(stderr, "oriel-play: {}\n", note);
   for (const std::string& line : idle_options(pack.pack, arguments)) fmt::print(stderr, "oriel-play: {}\n", line);
   arguments.frame.lights = factors_of(pack.pack, arguments.light_settings);
   if (!arguments.reference.empty()) return play_compare(std::move(pack), arguments);

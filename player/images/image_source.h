@@ -25,12 +25,6 @@ struct ImageName {
   std::uint32_t index = 0;
 };
 
-// Over the pixels of a reflector's maps.
-struct MapMeans {
-  Vec3 radiance{0};    // shown where none of them has anything
-  float distance = 0;  // from the plane to what they show, metres; the sky does not count
-};
-
 struct PreparedImage {
   std::vector<TextureData>
       textures;  // light: directions second, cells and details last; maps: light, disparity and ranges of each element
@@ -40,7 +34,7 @@ struct PreparedImage {
   std::uint64_t geometry = 0;                  // of maps: ImageSource::geometry(), likewise
   std::vector<std::vector<float>> map_scales;  // of maps, by element and layer
   std::vector<std::vector<IVec2>> map_sizes;
-  MapMeans means;
+  Vec3 mean_radiance{0};      // of maps
   SurroundTextures surround;  // without its textures
   Texture texture;            // of colours that were deferred, as in the pack
 
@@ -80,8 +74,6 @@ class ImageSource {
   // What is being prepared in other threads ends soon, with kStopped.
   void abandon() { *abandoned_ = true; }
 
-  // As lamps shine now. lights: for which.
-  Result<RadianceMap> lit_map(std::uint32_t index, std::uint64_t& lights) const;
   const DeferredImages* deferred() const { return deferred_.get(); }
   std::array<std::size_t, 5> counts() const;  // by ImageKind
 

@@ -8,32 +8,21 @@
 namespace oriel {
 namespace {
 
-// Sums over maps that come one after the other.
-class MeansOfMaps {
+// Over the pixels of maps that come one after the other.
+class MeanOfMaps {
  public:
   void add(const RadianceMap& map) {
     for (std::size_t i = 0; i < map.radiance.size(); ++i) {
       if (map.valid[i] == 0 || !is_finite(map.radiance[i])) continue;
       radiance_ += DVec3(map.radiance[i]);
       count_ += 1;
-      if (map.valid[i] == 2 || !(map.disparity[i] > 0)) continue;
-      const Vec2 share((static_cast<float>(i % map.width) + 0.5f) / static_cast<float>(map.width),
-                       (static_cast<float>(i / map.width) + 0.5f) / static_cast<float>(map.height));
-      const Vec3 to_plane = Vec3(glm::mix(map.lower, map.upper, share), 0) - map.eye;
-      distance_ += double{glm::length(to_plane)} * (1 / double{map.disparity[i]} - 1);
-      surfaces_ += 1;
     }
   }
-  MapMeans means() const {
-    MapMeans out;
-    if (count_ > 0) out.radiance = Vec3(radiance_ / count_);
-    if (surfaces_ > 0) out.distance = static_cast<float>(distance_ / surfaces_);
-    return out;
-  }
+  Vec3 mean() const { return count_ > 0 ? Vec3(radiance_ / count_) : Vec3(0); }
 
  private:
   DVec3 radiance_{0};
-  double count_ = 0, distance_ = 0, surfaces_ = 0;
+  double count_ = 0;
 };
 
 bool is_one(const Vec3& factor) {
@@ -110,19 +99,10 @@ Result<RadianceMap> ImageSource::radiance_map(std::uint32_t index) const {
   return pack_->radiance_maps[index];
 }
 
-Result<RadianceMap> ImageSource::lit_map(std::uint32_t index, std::uint64_t& lights) const {
-  PreparedImage of;
-  const LightOfMaps light = light_of_maps(of);
-  lights = of.lights;
-  ORIEL_TRY(RadianceMap map, radiance_map(index));
-  if (light) map_light_->shine(*light, index, map);
-  return map;
-}
-
 Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarser, Parts parts) const {
   PreparedImage out;
   const LightOfMaps light = light_of_maps(out);
-  MeansOfMaps means;
+  MeanOfMaps mean;
   for (const ReflectorElement& element : elements_[reflector]) {
     std::vector<RadianceMap> maps(element.maps.size());
     std::vector<Status> loaded(maps.size());
@@ -142,7 +122,7 @@ Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarse
     std::vector<const RadianceMap*> layers;
     std::vector<IVec2> sizes;
     for (RadianceMap& map : maps) {
-      means.add(map);
+      mean.add(map);
       if (coarser > 0) map = coarser_map(map, coarser);
       layers.push_back(&map);
       sizes.emplace_back(static_cast<int>(map.width), static_cast<int>(map.height));
@@ -154,7 +134,7 @@ Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarse
     out.map_scales.push_back(std::move(data.scale));
     out.map_sizes.push_back(std::move(sizes));
   }
-  out.means = means.means();
+  out.mean_radiance = mean.mean();
   return out;
 }
 

@@ -125,21 +125,6 @@ std::size_t map_light_bytes(std::span<const IVec2> sizes) {
   return shape_of(sizes).light.bytes();
 }
 
-TextureData map_points_data(const RadianceMap& map) {
-  std::vector<Vec4> texels(map.radiance.size());
-  for (std::size_t i = 0; i < texels.size(); ++i) {
-    const bool usable =
-        map.valid[i] != 0 && is_finite(map.radiance[i]) && map.disparity[i] >= 0 && map.disparity[i] <= 1;
-    texels[i] = usable ? Vec4(map.radiance[i], map.valid[i] == 2 ? 0.0f : map.disparity[i]) : Vec4(0, 0, 0, -1);
-  }
-  TextureData out;
-  out.format = gpu::kRgba32f;
-  out.width = static_cast<int>(map.width);
-  out.height = static_cast<int>(map.height);
-  out.add({0, 0, 0, out.width, out.height}, std::move(texels));
-  return out;
-}
-
 RadianceMap coarser_map(const RadianceMap& map, int coarser) {
   RadianceMap out = map;
   if (coarser < 1) return out;

@@ -29,9 +29,6 @@ struct MapArray {
   std::vector<IVec2> sizes;  // of the layers' maps, pixels
 };
 
-// A map as points, float RGBA: radiance, and disparity, which is -1 where the pixel saw nothing usable.
-TextureData map_points_data(const RadianceMap& map);
-
 // A map of a 2^coarser'th of the pixels a side, rounded down: of each square of pixels one, so that light and disparity
 // belong together.
 RadianceMap coarser_map(const RadianceMap& map, int coarser);

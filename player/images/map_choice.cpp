@@ -7,7 +7,7 @@
 namespace oriel {
 namespace {
 
-constexpr double kLeastCost = 1e-3;  // radians, or shares of the distance: as good as the eye's own image
+constexpr double kLeastCost = 1e-3;  // radians: as good as the eye's own image
 
 // Pixels of a map per radian, seen straight.
 double resolution(const RadianceMap& map) {
@@ -44,7 +44,7 @@ std::vector<ReflectorElement> group_by_element(const Reflector& reflector, std::
 }
 
 std::vector<WeighedMap> weigh_maps(const ReflectorElement& element, std::span<const RadianceMap> maps,
-                                   const Vec4& mirrored_eye, int count, Selection selection) {
+                                   const Vec4& mirrored_eye, int count) {
   const DVec3 center(0.5 * (DVec2(element.lower) + DVec2(element.upper)), 0.0);
   const DVec3 eye(mirrored_eye);
   const DVec3 towards = mirrored_eye.w > 0 ? eye - center : eye;
@@ -52,11 +52,7 @@ std::vector<WeighedMap> weigh_maps(const ReflectorElement& element, std::span<co
   double finest = 0;
   for (std::uint32_t i = 0; i < element.maps.size(); ++i) {
     const RadianceMap& map = maps[element.maps[i]];
-    const DVec3 map_eye(map.eye);
-    const bool by_angle = selection == Selection::kAngle || !(mirrored_eye.w > 0);
-    const double cost = by_angle ? angle_between(map_eye - center, towards)
-                                 : glm::length(map_eye - eye) / std::max(glm::length(towards), 1e-30);
-    ranked.push_back({map.residual, cost, i});
+    ranked.push_back({map.residual, angle_between(DVec3(map.eye) - center, towards), i});
     if (!map.residual) finest = std::max(finest, resolution(map));
   }
   std::sort(ranked.begin(), ranked.end());

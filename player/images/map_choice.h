@@ -8,8 +8,6 @@
 
 namespace oriel {
 
-enum class Selection { kAngle, kDistance };
-
 // An element of a reflector and the maps taken through it.
 struct ReflectorElement {
   Vec2 lower{0}, upper{0};
@@ -25,11 +23,11 @@ struct WeighedMap {
 };
 
 // All maps of the element, those that suit an eye best first, residual ones last (Bastos et al. 1999, section 8.1.3,
-// "Selection"): smallest angle at the element's centre between their eyes and mirrored_eye, or smallest distance.
-// mirrored_eye: the eye with z negated (w = 1), or the direction to it (w = 0; always by angle). Ties go to the first.
+// "Selection"): smallest angle at the element's centre between their eyes and mirrored_eye, which is the eye with z
+// negated (w = 1), or the direction to it (w = 0). Ties go to the first.
 // The first `count` have weights, sum 1, that fall to 0 at the next one's cost (Buehler et al. 2001, "Unstructured
 // Lumigraph Rendering", section 5.1), times their resolution over the finest: a moving eye changes maps without a jump.
 std::vector<WeighedMap> weigh_maps(const ReflectorElement& element, std::span<const RadianceMap> maps,
-                                   const Vec4& mirrored_eye, int count, Selection selection);
+                                   const Vec4& mirrored_eye, int count);
 
 }  // namespace oriel

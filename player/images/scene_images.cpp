@@ -100,7 +100,7 @@ void SceneImages::plan() {
     wishes.push_back({item.bytes, item.rank});
     whose.push_back(i);
   }
-  const std::vector<int> levels = plan_residency(wishes, account_.limit() - points_bytes_);
+  const std::vector<int> levels = plan_residency(wishes, account_.limit());
   for (std::size_t w = 0; w < wishes.size(); ++w)
     if (levels[w] < wishes[w].out()) items_[whose[w]].target = levels[w];
   if (account_.limit() == kNoLimit) return;
@@ -317,22 +317,6 @@ const gpu::Texture2d& SceneImages::normal(std::uint32_t index) const {
 
 const LoadedLightmap& SceneImages::light(std::uint32_t index) const {
   return lights_[index].texture ? lights_[index] : some_light_;
-}
-
-Result<const MapPoints*> SceneImages::points(std::uint32_t radiance_map) {
-  const auto found = points_.find(radiance_map);
-  if (found != points_.end() && found->second.lights == source_.lights()) return &found->second;
-  std::uint64_t lights = 0;
-  ORIEL_TRY(const RadianceMap map, source_.lit_map(radiance_map, lights));
-  TextureData data = map_points_data(map);
-  if (found == points_.end()) {
-    if (!account_.take(data.bytes())) return nullptr;
-    map_bytes_ += data.bytes();
-    points_bytes_ += data.bytes();
-    plan_is_due_ = true;
-  }
-  MapPoints points{upload_texture(std::move(data)), divide_points(map), lights};
-  return &points_.insert_or_assign(radiance_map, std::move(points)).first->second;
 }
 
 Result<const LightmapPage*> SceneImages::page(std::uint32_t index, const LightmapPage& in_pack) {

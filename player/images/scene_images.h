@@ -9,7 +9,6 @@
 #include "player/images/background.h"
 #include "player/images/image_source.h"
 #include "player/images/loading_state.h"
-#include "player/images/point_tree.h"
 #include "player/images/residency.h"
 
 namespace oriel {
@@ -25,14 +24,7 @@ struct LoadedLightmap {
 // All maps of a reflector.
 struct ReflectorMaps {
   std::vector<MapArray> elements;
-  MapMeans means;
-};
-
-// A radiance map to be drawn as points.
-struct MapPoints {
-  gpu::Texture2d texels;
-  std::vector<PointNode> nodes;
-  std::uint64_t lights = 0;  // ImageSource::lights() that it was made for
+  Vec3 mean_radiance{0};
 };
 
 struct LoadingOptions {
@@ -89,8 +81,6 @@ class SceneImages {
   const LoadedLightmap& light(std::uint32_t index) const;
   const ReflectorMaps& maps(std::uint32_t reflector) const { return maps_[reflector]; }  // that has() says are there
   const SurroundTextures& surround(std::uint32_t index) const { return surrounds_[index]; }
-  // As points; null where there is no room for it. Uploaded when first asked for and kept.
-  Result<const MapPoints*> points(std::uint32_t radiance_map);
   // A page with all that the bake knows of its texels, as lamps shine now, which only few ask for; in the background
   // null until it is there. in_pack: the pack's, which has it where it is not deferred.
   Result<const LightmapPage*> page(std::uint32_t index, const LightmapPage& in_pack);
@@ -169,8 +159,6 @@ class SceneImages {
   std::vector<LoadedLightmap> lights_;
   std::vector<ReflectorMaps> maps_;
   std::vector<SurroundTextures> surrounds_;
-  std::map<std::uint32_t, MapPoints> points_;
-  std::uint64_t points_bytes_ = 0;
   struct KnownPage {
     Result<LightmapPage> page = tl::unexpected<Error>(Error{});
     std::uint64_t lights = 0;  // ImageSource::lights() that it was made for

@@ -37,7 +37,7 @@ Status SceneImages::show_lights(std::uint32_t index) {
 void SceneImages::settle_maps(Upload& upload) {
   ReflectorMaps& maps = maps_[items_[upload.item].name.index];
   PreparedImage& image = upload.image;
-  maps.means = image.means;
+  maps.mean_radiance = image.mean_radiance;
   const std::size_t each = upload.light_alone ? 1 : 3;
   maps.elements.resize(image.map_scales.size());
   for (std::size_t e = 0; e < maps.elements.size(); ++e) {

@@ -30,7 +30,6 @@ Json as_json(const FrameRecord& record) {
           {"glass", s.glass},
           {"mirrored_glass", s.mirrored_glass},
           {"maps", s.maps},
-          {"points", s.points},
           {"image_pixels", s.image_pixels},
           {"map_bytes", s.map_bytes},
           {"image_bytes", s.image_bytes},
@@ -57,9 +56,9 @@ Json as_json(const FrameRecord& record) {
 }  // namespace
 
 std::string describe(const FrameStats& stats, bool in_zone) {
-  std::string text = fmt::format("{} draws, {} triangles, {} reflectors, {} maps, {} points, {:.1f} MB of maps",
-                                 stats.draws, stats.triangles, stats.reflectors, stats.maps, stats.points,
-                                 static_cast<double>(stats.map_bytes) * 1e-6);
+  std::string text =
+      fmt::format("{} draws, {} triangles, {} reflectors, {} maps, {:.1f} MB of maps", stats.draws, stats.triangles,
+                  stats.reflectors, stats.maps, static_cast<double>(stats.map_bytes) * 1e-6);
   if (stats.coarser_images + stats.missing_images > 0)
     text += fmt::format(", {:.1f} MB of images, {} coarser, {} left out", static_cast<double>(stats.image_bytes) * 1e-6,
                         stats.coarser_images, stats.missing_images);

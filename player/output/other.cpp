@@ -12,7 +12,6 @@
 #include "player/navigation/poses.h"
 #include "player/output/fit_picture.h"
 #include "player/output/split.h"
-#include "player/session/method.h"
 
 namespace oriel {
 namespace {

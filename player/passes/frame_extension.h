@@ -33,11 +33,21 @@ struct LitBatches {
   SceneWeights weights;
 };
 
+// A reflector of which a part is seen in the frame.
+struct ReflectorInFrame {
+  const FrameTarget& frame;
+  const GpuReflector& reflector;
+  NdcRect screen;   // around that part
+  GLint value = 0;  // in the frame's stencil, kReflectorBits; 0: see-through, is added to what is there
+};
+
 class FrameExtension {
  public:
   virtual ~FrameExtension() = default;
   // Before the images of a frame.
   virtual Status begin(const FrameContext&, std::span<const PlacedMover>) { return {}; }
+  // S of one reflector into the frame; false: as the player draws it. Own framebuffers may stay bound.
+  virtual Result<bool> draw_reflection(const FrameContext&, const ReflectorInFrame&) { return false; }
   // Adds light to what the lightmap lights, in the frame and in images of mirrors. Own framebuffers may stay bound.
   virtual Status add_light(const FrameContext&, const LitImage&, const LitBatches&) { return {}; }
   // What draws shadows of movers on the scene; none: shadow maps alone.

@@ -20,7 +20,7 @@ PixelCount count_pixels(const FrameTarget& frame, GLint value, const ImageTarget
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       if (static_cast<GLint>(stencil[static_cast<std::size_t>(y * width + x)] & kReflectorBits) != value) continue;
-      const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(rect.reduction) - rect.origin;
+      const Vec2 at = Vec2(x, y) + 0.5f - rect.origin;
       const int column = std::clamp(static_cast<int>(at.x), 0, rect.width - 1);
       const int row = std::clamp(static_cast<int>(at.y), 0, rect.height - 1);
       ++count.pixels;

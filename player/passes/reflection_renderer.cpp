@@ -6,7 +6,6 @@
 #include "player/passes/holes.h"
 #include "player/passes/mirrored_view.h"
 #include "player/reflections/reflected_view.h"
-#include "player/scene/pixel_kernel.h"
 #include "player/scene/surface.h"
 
 namespace oriel {
@@ -47,13 +46,6 @@ float reflectance_of(const Pack& pack, std::uint32_t material) {
   return table.empty() ? 0.0f : max_component(table[table.size() / 2]);
 }
 
-// Pixels of the frame along a side of one of an image that one kernel blurs.
-int even_reduction(const GpuScene& scene, const GpuReflector& reflector, const View& view) {
-  const std::int32_t kernel = scene.pack().materials[reflector.material].kernel;
-  return choose_reduction(scene.pack().kernels[static_cast<std::size_t>(kernel)],
-                          even_pixels_per_tangent(reflector, view));
-}
-
 bool shows_reflectors(const FrameOptions& options) {
   return options.show != Show::kD && options.reflections != Reflections::kOff;
 }
@@ -64,7 +56,7 @@ bool worth_an_image(const FrameContext& context, const ReflectionTarget& target,
   const auto& [scene, view, options, stats] = context;
   if (left < kLeastReflectance || scene.is_transparent(reflector.material)) return false;
   if (options.orders || target.mirrors < kOrders) return true;
-  return left >= kMirroring && !scene.kernel(reflector.material, options.kernel, options.coarse).blurs();
+  return left >= kMirroring && !scene.kernel(reflector.material, options.coarse).blurs();
 }
 
 bool marches(Reflections way) {
@@ -84,7 +76,6 @@ Result<ReflectionRenderer> ReflectionRenderer::create(const gpu::Device& device)
   ORIEL_TRY(out.reflector_pass_, ReflectorPass::create(device.dialect));
   ORIEL_TRY(out.march_pass_, MarchPass::create(device.dialect));
   ORIEL_TRY(out.mesh_pass_, MeshPass::create(device));
-  ORIEL_TRY(out.reproject_pass_, ReprojectPass::create(device));
   ORIEL_TRY(out.fill_pass_, FillPass::create(device.dialect));
   ORIEL_TRY(out.convolve_pass_, ConvolvePass::create(device.dialect));
   ORIEL_TRY(out.curved_pass_, CurvedPass::create(device.dialect));
@@ -144,54 +135,52 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
                                 const MarkedReflector& marked, PassClock* clock) {
   const auto& [scene, view, options, stats] = work.context;
   const GpuReflector& reflector = *marked.reflector;
+  if (work.extension != nullptr && target.frame != nullptr) {
+    ORIEL_TRY(const bool drawn,
+              work.extension->draw_reflection(work.context, {*target.frame, reflector, marked.screen, marked.value}));
+    if (drawn) return {};
+  }
   const bool maps = shows_maps(reflector, options);
   if (maps) {
     ORIEL_TRY(const bool there, scene.bring_maps(reflector));
     if (!there) return {};  // another reflector's took their room
   }
-  const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel, options.coarse);
-  const bool lobe = kernel.blurs() && options.blur != Blur::kOff;
-  const bool blurs = lobe && options.show != Show::kM, even = lobe && options.blur == Blur::kConstant;
-  const int reduction = even ? even_reduction(scene, reflector, view) : 1;
-  const View drawn = reduction > 1 ? reduced_view(view, reduction) : view;
-  const ReflectionWork inner = work.with({scene, drawn, options, stats});
-  ImageRect rect = choose_image(in_reduced_view(marked.screen, view, drawn, reduction),
-                                blurs && !even ? kernel.median : 0.0f, drawn, device_.texture_size, options.coarse);
-  rect.reduction = reduction;
+  const GpuKernel& kernel = scene.kernel(reflector.material, options.coarse);
+  const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
+  const ImageRect rect =
+      choose_image(marked.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size, options.coarse);
   const auto level = static_cast<std::size_t>(target.mirrors);
   if (images_.size() <= level) images_.resize(level + 1);
   const bool halves = halves_ && (!maps || scene.fit_halves(reflector));
   ORIEL_TRY_VOID(ensure_image_target(images_[level], rect.width, rect.height, device_.texture_size, halves));
-  const ReflectedImage image{reflector, kernel, rect, *images_[level], blurs, maps, blurs && even};
+  const ReflectedImage image{reflector, kernel, rect, *images_[level], blurs, maps};
   stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
   const bool counted = options.count_holes && marked.value > 0 && target.frame != nullptr;
   if (counted && !kernel.blurs() && maps && marches(options.reflections)) {
-    march_pass_.measure(inner.context, image);
+    march_pass_.measure(work.context, image);
     const PixelCount count = count_pixels(*target.frame, marked.value, image.target, rect, is_sharp);
     stats.mirror_pixels += count.pixels;
     stats.sharp += count.counted;
   }
-  ORIEL_TRY_VOID(timed(clock, Pass::kReflect, [&] { return draw_image(inner, target, marked, image); }));
+  ORIEL_TRY_VOID(timed(clock, Pass::kReflect, [&] { return draw_image(work, target, marked, image); }));
   if (counted) {
     const PixelCount count = count_pixels(*target.frame, marked.value, image.target, rect, is_hole);
     stats.reflected_pixels += count.pixels;
     stats.holes += count.counted;
   }
   const gpu::Texture2d& depth = target.frame != nullptr ? target.frame->depth : target.image->depth;
-  if (blurs && !even && !maps) {
-    const bool whole = !reflector.seen || !sets_hold(inner.context, target);
-    timed(clock, Pass::kFill, [&] { convolve_pass_.cut(inner.context, image, depth, whole); });
+  if (blurs && !maps) {
+    const bool whole = !reflector.seen || !sets_hold(work.context, target);
+    timed(clock, Pass::kFill, [&] { convolve_pass_.cut(work.context, image, depth, whole); });
   }
-  if ((maps && options.fill) || (blurs && !even))
+  if (maps || blurs)
     timed(clock, Pass::kFill, [&] {
       const auto holes = maps ? FillPass::Holes::kHidden : FillPass::Holes::kBeside;
-      fill_pass_.draw({rect, image.target, holes, blurs && !even}, stats);
+      fill_pass_.draw({rect, image.target, holes, blurs}, stats);
     });
-  if (image.even) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw_even(inner.context, image); });
   if (rect.coarse > 1) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw(work.context, image); });
   target.bind(view);
-  timed(clock, blurs && !even ? Pass::kConvolve : Pass::kCompose,
-        [&] { compose(work.context, target, marked, image); });
+  timed(clock, blurs ? Pass::kConvolve : Pass::kCompose, [&] { compose(work.context, target, marked, image); });
   const GLint value = target.frame != nullptr ? marked.value : kAdded;
   timed(clock, Pass::kEmitters, [&] { reflector_pass_.draw_emitters(work.context, reflector, value); });
   ++stats.reflectors;
@@ -203,7 +192,7 @@ void ReflectionRenderer::compose(const FrameContext& context, const ReflectionTa
   // Of what mostly mirrors, the image's depth counts, as in radiance maps: it is what blurs it in another reflector.
   const bool mirrors = reflectance_of(context.scene.pack(), marked.reflector->material) > kMirroring;
   const GLint value = target.frame != nullptr ? marked.value : mirrors ? kAddedWithDistance : kAdded;
-  if (image.blurs && !image.even) {
+  if (image.blurs) {
     reflector_pass_.draw_convolved(context, image, value);
   } else {
     reflector_pass_.draw_light(context, image, value);
@@ -214,7 +203,6 @@ Status ReflectionRenderer::draw_image(const ReflectionWork& work, const Reflecti
                                       const MarkedReflector& marked, const ReflectedImage& image) {
   if (!image.has_holes) return draw_mirrored(work, target, image);
   const FrameContext& context = work.context;
-  if (context.options.reflections == Reflections::kPoints) return reproject_pass_.draw(context, image);
   const ShownPixels shown{target.frame != nullptr ? &target.frame->framebuffer : nullptr,
                           target.frame != nullptr ? marked.value : 0, kReflectorBits};
   if (context.options.reflections == Reflections::kMesh && context.scene.has_map_meshes()) {

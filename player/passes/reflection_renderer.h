@@ -23,7 +23,6 @@
 #include "player/reflections/fill_pass.h"
 #include "player/reflections/march_pass.h"
 #include "player/reflections/mesh_pass.h"
-#include "player/reflections/reproject_pass.h"
 
 namespace oriel {
 
@@ -96,7 +95,6 @@ class ReflectionRenderer {
   ReflectorPass reflector_pass_;
   MarchPass march_pass_;
   MeshPass mesh_pass_;
-  ReprojectPass reproject_pass_;
   FillPass fill_pass_;
   ConvolvePass convolve_pass_;
   CurvedPass curved_pass_;

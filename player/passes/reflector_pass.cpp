@@ -16,24 +16,6 @@ void draw_reflector(const GpuReflector& reflector, FrameStats& stats) {
   stats.triangles += reflector.index_count / 3;
 }
 
-// Of the grid at whose corners a reflector's sphere map is looked up; 0: R is the table's. See-through reflectors,
-// which no mark tells of, have the table, and so do images in mirrors.
-int sphere_cells(const FrameContext& context, const GpuReflector& reflector, GLint value) {
-  const auto& [scene, view, options, stats] = context;
-  const std::int32_t row = scene.pack().materials[reflector.material].fresnel_map;
-  const bool sphere = options.reflectance == Reflectance::kSphereMap && value > 0 && row >= 0 &&
-                      scene.pack().fresnel_maps[static_cast<std::size_t>(row)].sphere_size > 1;
-  return sphere ? options.sphere_cells : 0;
-}
-
-// The reflector, or the grid over its bounds, of which the mark leaves what is the reflector's.
-void draw_surface(const FrameContext& context, const GpuReflector& reflector, int cells) {
-  if (cells == 0) return draw_reflector(reflector, context.stats);
-  glDrawArrays(GL_TRIANGLES, 0, 6 * cells * cells);
-  ++context.stats.draws;
-  context.stats.triangles += static_cast<std::uint64_t>(2 * cells * cells);
-}
-
 // Where strip `i` of those across a rectangle begins, along each axis: whole pixels of the frame, that hold all of it.
 IVec2 strip_edge(const NdcRect& screen, const View& view, int i) {
   const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
@@ -42,12 +24,11 @@ IVec2 strip_edge(const NdcRect& screen, const View& view, int i) {
   return lower + (upper - lower) * i / kMaskStrips;
 }
 
-// Over what the mask marked with `value`; kAdded…: wherever the depth leaves the reflector visible. cells: of a grid,
-// whose depth is not the reflector's to the last bit.
-gpu::RasterState where_marked(const View& view, GLint value, int cells) {
+// Over what the mask marked with `value`; kAdded…: wherever the depth leaves the reflector visible.
+gpu::RasterState where_marked(const View& view, GLint value) {
   gpu::RasterState state;
-  state.depth_test = cells == 0;
-  state.cull = cells == 0 ? gpu::Cull::kBack : gpu::Cull::kNone;
+  state.depth_test = true;
+  state.cull = gpu::Cull::kBack;
   state.mirrored = view.mirrored;
   if (value > 0) {
     state.stencil_func = GL_EQUAL;
@@ -124,58 +105,52 @@ NdcRect ReflectorPass::visible_part(const NdcRect& screen, const View& view, std
 }
 
 void ReflectorPass::draw_light(const FrameContext& context, const ReflectedImage& image, GLint value) const {
-  const gpu::Texture2d& light = image.even ? image.target.blurred : image.shown(context.options);
+  const gpu::Texture2d& light = image.shown();
   const ImageRect& rect = image.rect;
-  const int cells = sphere_cells(context, image.reflector, value);
-  gpu::apply(where_marked(context.view, value, cells));
+  gpu::apply(where_marked(context.view, value));
   compose_.use();
   compose_.set("u_image", 0);
   compose_.set("u_with_distance", value == kAddedWithDistance ? 1 : 0);
   compose_.set("u_texture_size", Vec2(static_cast<float>(light.width()), static_cast<float>(light.height())));
   compose_.set("u_image_size", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
   compose_.set("u_origin", rect.origin);
-  compose_.set("u_reduction", static_cast<float>(rect.reduction));
-  compose_.set("u_missing", context.options.fill ? image.reflector.mean_radiance : Vec3(0));
-  set_surface(compose_, context, image.reflector, cells);
+  compose_.set("u_missing", image.reflector.mean_radiance);
+  set_surface(compose_, context, image.reflector);
   light.bind(0);  // last: what is uploaded on first use is bound meanwhile
-  draw_surface(context, image.reflector, cells);
+  draw_reflector(image.reflector, context.stats);
 }
 
 void ReflectorPass::draw_convolved(const FrameContext& context, const ReflectedImage& image, GLint value) const {
-  const int cells = sphere_cells(context, image.reflector, value);
-  gpu::apply(where_marked(context.view, value, cells));
+  gpu::apply(where_marked(context.view, value));
   convolve_.use();
   convolve_.set("u_origin", image.rect.origin);
   convolve_.set("u_with_distance", value == kAddedWithDistance ? 1 : 0);
   convolve_.set("u_missing", image.reflector.mean_radiance);
-  set_surface(convolve_, context, image.reflector, cells);
+  set_surface(convolve_, context, image.reflector);
   convolve_.set("u_blurred", 6);
   image.target.blurred.bind(6);
   set_convolution(convolve_, context, image);
-  draw_surface(context, image.reflector, cells);
+  draw_reflector(image.reflector, context.stats);
 }
 
 void ReflectorPass::draw_emitters(const FrameContext& context, const GpuReflector& reflector, GLint value) const {
   const gpu::Program* const emitters = set_emitters(context, reflector);
   if (emitters == nullptr) return;
-  const int cells = sphere_cells(context, reflector, value);
-  gpu::RasterState state = where_marked(context.view, value, cells);
+  gpu::RasterState state = where_marked(context.view, value);
   state.blend = gpu::Blend::kAdd;
   state.alpha_write = false;
   gpu::apply(state);
-  set_surface(*emitters, context, reflector, cells);
-  draw_surface(context, reflector, cells);
+  set_surface(*emitters, context, reflector);
+  draw_reflector(reflector, context.stats);
 }
 
-void ReflectorPass::set_surface(const gpu::Program& program, const FrameContext& context, const GpuReflector& reflector,
-                                int cells) const {
+void ReflectorPass::set_surface(const gpu::Program& program, const FrameContext& context,
+                                const GpuReflector& reflector) const {
   const auto& [scene, view, options, stats] = context;
   const Material& material = scene.pack().materials[reflector.material];
   const auto row = material.fresnel_map;
   const FresnelMap* fresnel = row < 0 ? nullptr : &scene.pack().fresnel_maps[static_cast<std::size_t>(row)];
-  const gpu::Texture2d& reflectance =
-      cells > 0 ? scene.sphere_map(static_cast<std::uint32_t>(row)) : scene.reflectance_tables();
-  reflectance.bind(1);
+  scene.reflectance_tables().bind(1);
   scene.bind_geometry();
   program.set("u_clip_from_pack", view.clip_from_pack);
   program.set("u_eye", view.eye);
@@ -183,10 +158,6 @@ void ReflectorPass::set_surface(const gpu::Program& program, const FrameContext&
   program.set("u_reflectance", 1);
   program.set("u_reflectance_row", row);
   program.set("u_reflectance_count", fresnel == nullptr ? 1 : static_cast<int>(fresnel->table.size()));
-  program.set("u_sphere_map", cells > 0 ? 1 : 0);
-  program.set("u_grid", cells);
-  const std::array<Vec3, 3> corners{reflector.corners[0], reflector.corners[1], reflector.corners[3]};
-  program.set("u_grid_corners", corners);
   program.set("u_modulate", options.show == Show::kM || options.show == Show::kMK ? 0 : 1);
 }
 
@@ -194,7 +165,7 @@ const gpu::Program* ReflectorPass::set_emitters(const FrameContext& context, con
   const auto& [scene, view, options, stats] = context;
   const Pack& pack = scene.pack();
   const GpuEmitters& emitters = reflector.emitters;
-  const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel, options.coarse);
+  const GpuKernel& kernel = scene.kernel(reflector.material, options.coarse);
   // M shows a mirror's world, in which a glossy lobe has no place.
   if (!emitters.polygons || (options.show == Show::kM && kernel.fits)) return nullptr;
   const bool sharp = options.blur == Blur::kOff || !kernel.fits;

@@ -38,9 +38,8 @@ class ReflectorPass {
   void draw_emitters(const FrameContext& context, const GpuReflector& reflector, GLint value) const;
 
  private:
-  // What every program needs to know about the reflector and its R; cells: of the grid by which it is drawn, 0: none.
-  void set_surface(const gpu::Program& program, const FrameContext& context, const GpuReflector& reflector,
-                   int cells) const;
+  // What every program needs to know about the reflector and its R.
+  void set_surface(const gpu::Program& program, const FrameContext& context, const GpuReflector& reflector) const;
   // The program for those that the reflector's maps leave out, in use from then on; null where there is nothing to
   // show.
   const gpu::Program* set_emitters(const FrameContext& context, const GpuReflector& reflector) const;

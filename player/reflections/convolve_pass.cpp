@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "player/gpu/raster_state.h"
-#include "player/scene/pixel_kernel.h"
 
 namespace oriel {
 namespace {
@@ -44,43 +43,8 @@ ImageRect choose_image(const NdcRect& screen, float median, const View& view, in
   return rect;
 }
 
-namespace {
-
-// The share of a lobe's angle that something at the mean distance behind the reflector's middle spans for the eye (or
-// metres, seen orthographically).
-float mean_footprint(const GpuReflector& reflector, const View& view) {
-  const Vec3 middle = 0.5f * (reflector.corners[0] + reflector.corners[2]);
-  if (view.orthographic) return reflector.mean_distance;
-  const float to_plane = glm::length(Vec3(view.eye) - middle);
-  return reflector.mean_distance / std::max(reflector.mean_distance + to_plane, 1e-30f);
-}
-
-}  // namespace
-
-float even_pixels_per_tangent(const GpuReflector& reflector, const View& view) {
-  return pixels_per_tangent(view) * mean_footprint(reflector, view);
-}
-
-View reduced_view(const View& view, int reduction) {
-  const auto up = [&](int size) { return (size + reduction - 1) / reduction; };
-  View out = part_of(view, Vec2(0), up(view.width) * reduction, up(view.height) * reduction);
-  out.width = up(view.width);
-  out.height = up(view.height);
-  return out;
-}
-
-NdcRect in_reduced_view(const NdcRect& screen, const View& view, const View& reduced, int reduction) {
-  const Vec2 share =
-      Vec2(view.width, view.height) / (Vec2(reduced.width, reduced.height) * static_cast<float>(reduction));
-  NdcRect out = screen;
-  out.lower = (screen.lower + 1.0f) * share - 1.0f;
-  out.upper = (screen.upper + 1.0f) * share - 1.0f;
-  return out;
-}
-
 Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   ConvolvePass pass;
-  ORIEL_TRY(pass.even_, gpu::Program::create("screen_kernel", dialect));
   ORIEL_TRY(pass.cut_, gpu::Program::create("screen_cut", dialect));
   ORIEL_TRY(pass.program_, gpu::Program::create("screen_convolve", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
@@ -139,24 +103,6 @@ void ConvolvePass::cut(const FrameContext& context, const ReflectedImage& image,
   cut_.set("u_whole", whole ? 1 : 0);
   cut_.set("u_view_size", IVec2(context.view.width, context.view.height));
   cut_.set("u_clip_from_view", context.view.clip_from_view);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  ++context.stats.draws;
-}
-
-void ConvolvePass::draw_even(const FrameContext& context, const ReflectedImage& image) const {
-  const std::int32_t index = context.scene.pack().materials[image.reflector.material].kernel;
-  const PixelKernel kernel = make_pixel_kernel(context.scene.pack().kernels[static_cast<std::size_t>(index)],
-                                               even_pixels_per_tangent(image.reflector, context.view));
-  const int side = 2 * kernel.radius + 1;
-  const gpu::Texture2d weights(gpu::kR32f, side, side, kernel.weights.data());
-  draw_into(image, image.target.blurred, IVec2(image.rect.width, image.rect.height));
-  even_.use();
-  even_.set("u_image", 0);
-  even_.set("u_kernel", 2);
-  even_.set("u_image_size", IVec2(image.rect.width, image.rect.height));
-  even_.set("u_radius", kernel.radius);
-  weights.bind(2);
-  image.shown(context.options).bind(0);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   ++context.stats.draws;
 }

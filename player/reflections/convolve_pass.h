@@ -18,14 +18,6 @@ void set_blur_width(const gpu::Program& program, const FrameContext& context, co
 // units 0 and 2.
 void set_convolution(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image);
 
-// Where one kernel blurs all (Blur::kConstant): pixels of the view's picture that a tangent of the kernel spans, as if
-// all lay at the mean distance of what the reflector's maps show.
-float even_pixels_per_tangent(const GpuReflector& reflector, const View& view);
-// The view in a picture of as many times fewer pixels a side, its right and upper edges moved out to whole ones; and
-// where something of the whole picture lies in it.
-View reduced_view(const View& view, int reduction);
-NdcRect in_reduced_view(const NdcRect& screen, const View& view, const View& reduced, int reduction);
-
 class ConvolvePass {
  public:
   static Result<ConvolvePass> create(gpu::Dialect dialect);
@@ -35,13 +27,11 @@ class ConvolvePass {
   void cut(const FrameContext& context, const ReflectedImage& image, const gpu::Texture2d& depth, bool whole) const;
   // target.filled, all levels, to target.blurred.
   void draw(const FrameContext& context, const ReflectedImage& image) const;
-  // The image, which is of the context's view, to target.blurred by one kernel.
-  void draw_even(const FrameContext& context, const ReflectedImage& image) const;
 
  private:
   void draw_into(const ReflectedImage& image, const gpu::Texture2d& texture, const IVec2& size) const;
 
-  gpu::Program cut_, program_, even_;
+  gpu::Program cut_, program_;
   gpu::VertexArray no_vertices_;
 };
 

@@ -13,7 +13,6 @@ namespace oriel {
 struct ImageRect {
   Vec2 origin{0};             // lower left corner, pixels of the view
   int width = 0, height = 0;  // pixels of the view
-  int reduction = 1;          // pixels of the frame along a side of one of the view: 1, or more where K is one for all
   int coarse = 1;             // of them along a side of a pixel of M * K, where the lobe is wide: 1, 2 or 4
   int marched = 1;            // of M, where the lobe is wide or the reflector is not seen: 1 or 4
 };
@@ -46,12 +45,9 @@ struct ReflectedImage {
   const ImageTarget& target;
   bool blurs = false;     // M becomes M * K; else M is shown, as by a mirror
   bool has_holes = true;  // M is made of maps, which may know nothing of a pixel
-  bool even = false;      // blurs, by one kernel for all of the image
 
-  // M with its holes filled, where it has some and that is asked for.
-  const gpu::Texture2d& shown(const FrameOptions& options) const {
-    return has_holes && options.fill ? target.filled : target.sharp;
-  }
+  // M with its holes filled, where it has some.
+  const gpu::Texture2d& shown() const { return has_holes ? target.filled : target.sharp; }
 };
 
 // At least that large, of half floats or of floats; keeps `current` where it suffices.

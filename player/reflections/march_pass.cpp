@@ -160,7 +160,7 @@ void MarchPass::choose_maps(const FrameContext& context, const ReflectorElement&
                             const Vec4& mirrored_eye) const {
   const auto& [scene, view, options, stats] = context;
   const std::vector<RadianceMap>& maps = scene.pack().radiance_maps;
-  std::vector<WeighedMap> chosen = weigh_maps(element, maps, mirrored_eye, options.maps_per_element, options.selection);
+  std::vector<WeighedMap> chosen = weigh_maps(element, maps, mirrored_eye, options.maps_per_element);
   // Where not all can be asked, residual ones come before the worst of the others.
   const auto residual = std::find_if(chosen.begin(), chosen.end(),
                                      [&](const WeighedMap& m) { return maps[element.maps[m.map]].residual; });

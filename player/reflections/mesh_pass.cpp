@@ -93,7 +93,7 @@ void MeshPass::draw(const FrameContext& context, const ReflectedImage& image, co
   for (std::size_t e = 0; e < reflector.elements.size(); ++e) {
     if (!shows(reflector.elements[e], image_from_reflector)) continue;
     elements.push_back({e, weigh_maps(reflector.elements[e], scene.pack().radiance_maps, reflected.mirrored_eye,
-                                      options.maps_per_element, options.selection)});
+                                      options.maps_per_element)});
   }
   const auto draw_maps = [&](const gpu::RasterState& state, bool first) {
     gpu::apply(state);

@@ -51,7 +51,7 @@ void check_tables(const Pack& pack, Limits& limits) {
   }
   limits.at_most("Fresnel maps", "of them", pack.fresnel_maps.size(), limits.side_limit());
   for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i)
-    limits.sides("Fresnel map", i, pack.fresnel_maps[i].table.size(), pack.fresnel_maps[i].sphere_size);
+    limits.sides("Fresnel map", i, pack.fresnel_maps[i].table.size(), 1);
 }
 
 void check_reflectors(const Pack& pack, Limits& limits) {

@@ -8,8 +8,6 @@
 
 #include "formats/assets/mover.h"
 #include "formats/query/live_options.h"
-#include "player/images/map_choice.h"
-#include "player/scene/kernel_taps.h"
 
 namespace oriel {
 
@@ -21,15 +19,11 @@ inline constexpr int kShows = 11;
 inline bool is_survey(Show show) {
   return show >= Show::kLux;
 }
-// How M is made: as the bake chose; by marching rays through radiance maps; by drawing the maps' meshes; from their
-// pixels as points, as published, with boxes of equation (3); by drawing the mirrored scene; or not at all. A reflector
-// without maps is always drawn as the mirrored scene.
-enum class Reflections { kChosen, kMarch, kMesh, kPoints, kGeometry, kOff };
-// How wide K is: by the distance of what is reflected; one kernel for the whole image as published, which is then drawn
-// at reduced resolution; or a mirror's.
-enum class Blur { kDistance, kConstant, kOff };
-// R by the table at each pixel; or as published by the sphere map, at the reflected vectors of vertices.
-enum class Reflectance { kTable, kSphereMap };
+// How M is made: as the bake chose; by marching rays through radiance maps; by drawing the maps' meshes; by drawing the
+// mirrored scene; or not at all. A reflector without maps is always drawn as the mirrored scene.
+enum class Reflections { kChosen, kMarch, kMesh, kGeometry, kOff };
+// How wide K is: by the distance of what is reflected, or a mirror's.
+enum class Blur { kDistance, kOff };
 
 // How movers meet bright lights: with shadows of their own, without any, or as harmonics like all other light.
 enum class MoverLights { kShadowed, kUnshadowed, kHarmonics };
@@ -65,12 +59,7 @@ struct FrameOptions {
   // Reflectors on the way of a reflection; none: two, and on while all of them are mirrors that keep half of the light.
   std::optional<int> orders = {};
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
-  Selection selection = Selection::kAngle;
-  bool fill = true;  // pixels that no map tells of; else they stay black. Not with Blur::kDistance
   Blur blur = Blur::kDistance;
-  KernelPlace kernel = KernelPlace::kLobe;
-  Reflectance reflectance = Reflectance::kTable;
-  int sphere_cells = 16;     // along a side of a reflector, at whose corners its sphere map is looked up
   bool visible_sets = true;  // draws only what the eye's place may see, where the pack knows
   bool mipmaps = true;       // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
   int samples = 1;           // of a pixel at edges, as many as the device has
@@ -132,7 +121,6 @@ struct FrameStats {
   // Bodies of glass and frosted panes that were drawn as such, in the frame and in images of reflectors.
   std::uint32_t glass = 0, mirrored_glass = 0;
   std::uint32_t maps = 0;          // radiance and surround maps chosen
-  std::uint64_t points = 0;        // of them
   std::uint64_t image_pixels = 0;  // of planar reflectors' images, with their margins
   std::uint64_t map_bytes = 0;     // of all radiance and surround maps on the device so far
   // All images on the device; the most they ever were; how many are coarser than the pack's, or left out, for the

@@ -43,21 +43,6 @@ SeenMask seen_in(const Pack& pack, std::uint32_t reflector) {
   return seen;
 }
 
-// Over the plane of a reflector, of the triangles before it, by their area.
-float mean_height(const Mesh& mesh, const Mat4& reflector_from_pack) {
-  const Vec4 height = glm::transpose(reflector_from_pack)[2];
-  double sum = 0, total = 0;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const Vec3 &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
-               &c = mesh.positions[mesh.indices[i + 2]];
-    const float above = glm::dot(height, Vec4((a + b + c) / 3.0f, 1));
-    if (!(above > 0)) continue;
-    const double area = glm::length(glm::cross(b - a, c - a));
-    sum += area * above, total += area;
-  }
-  return total > 0 ? static_cast<float>(sum / total) : 0.0f;
-}
-
 Status first_of(const std::vector<Error>& errors) {
   if (errors.empty()) return {};
   return tl::unexpected<Error>(errors.front());
@@ -191,7 +176,6 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices, bool sets_kn
     out.index_count = static_cast<std::uint32_t>(r.indices.size());
     indices.insert(indices.end(), r.indices.begin(), r.indices.end());
     out.elements = group_by_element(r, pack_.radiance_maps);
-    if (out.elements.empty()) out.mean_distance = mean_height(pack_.mesh, out.reflector_from_pack);
     if (sets_known) out.seen = seen_in(pack_, i);
     reflectors_.push_back(std::move(out));
   }
@@ -215,9 +199,7 @@ Result<bool> GpuScene::bring_maps(const GpuReflector& reflector) {
   const bool late = !images_->in_background() && !images_->is_lit(name);
   if (!images_->has(name) || late) ORIEL_TRY_VOID(first_of(advance_all()));
   if (!images_->has(name)) return false;
-  const MapMeans& means = images_->maps(reflector.index).means;
-  reflectors_[reflector.index].mean_radiance = means.radiance;
-  reflectors_[reflector.index].mean_distance = means.distance;
+  reflectors_[reflector.index].mean_radiance = images_->maps(reflector.index).mean_radiance;
   return true;
 }
 
@@ -295,7 +277,6 @@ void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, con
   const std::array<std::uint8_t, 4> flat{128, 128, 255, 255};
   flat_ = gpu::Texture2d(gpu::kRgba8, 1, 1, flat.data());
   reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
-  sphere_maps_.resize(pack_.fresnel_maps.size());
 
   std::vector<ImageUse> uses;
   const auto as_it_is = [](const Bounds& bounds) { return bounds; };
@@ -350,29 +331,22 @@ const LoadedLightmap& GpuScene::lightmap(std::int32_t index) const {
   return index < 0 ? no_lightmap_ : images_->light(static_cast<std::uint32_t>(index));
 }
 
-const gpu::Texture2d& GpuScene::sphere_map(std::uint32_t fresnel_map) {
-  gpu::Texture2d& texture = sphere_maps_[fresnel_map];
-  if (!texture) texture = upload_sphere_map(pack_.fresnel_maps[fresnel_map]);
-  return texture;
-}
-
-const GpuKernel& GpuScene::kernel(std::uint32_t material, KernelPlace place, bool coarse) {
+const GpuKernel& GpuScene::kernel(std::uint32_t material, bool coarse) {
   const Material& m = pack_.materials[material];
-  return kernel(m.kernel, m.fresnel_map, place, coarse);
+  return kernel(m.kernel, m.fresnel_map, coarse);
 }
 
-const GpuKernel& GpuScene::kernel(std::int32_t index, std::int32_t fresnel_map, KernelPlace place, bool coarse) {
-  const auto [at, added] = kernels_.try_emplace({index, fresnel_map, place, coarse});
+const GpuKernel& GpuScene::kernel(std::int32_t index, std::int32_t fresnel_map, bool coarse) {
+  const auto [at, added] = kernels_.try_emplace({index, fresnel_map, coarse});
   if (!added) return at->second;
   const BrdfKernel mirror;
   const FresnelMap none;
   const BrdfKernel& kernel = index < 0 ? mirror : pack_.kernels[static_cast<std::size_t>(index)];
   const FresnelMap& fresnel = fresnel_map < 0 ? none : pack_.fresnel_maps[static_cast<std::size_t>(fresnel_map)];
-  KernelTaps taps = make_kernel_taps(kernel, coarse ? kCoarseTaps : kKernelTaps, place);
-  const std::vector<float> factors = weigh_by_fresnel(taps, place == KernelPlace::kCentred ? none : fresnel);
+  KernelTaps taps = make_kernel_taps(kernel, coarse ? kCoarseTaps : kKernelTaps);
+  const std::vector<float> factors = weigh_by_fresnel(taps, fresnel);
   at->second = {upload_kernel_taps(taps), taps.count, taps.rows, taps.median, {}};
-  if (!kernel.fits.empty())
-    at->second.fits = upload_lobe_fits(kernel, place == KernelPlace::kCentred ? none : fresnel, factors);
+  if (!kernel.fits.empty()) at->second.fits = upload_lobe_fits(kernel, fresnel, factors);
   return at->second;
 }
 

@@ -32,9 +32,6 @@ struct GpuReflector {
   float size = 0;                 // diagonal of its bounds, metres
   std::vector<ReflectorElement> elements;
   SeenMask seen;  // groups that any eye may see in it; nothing: all
-  // From the plane to what its maps show, metres; the sky does not count. Once bring_maps() has been called; without
-  // maps it is that of all triangles before it.
-  float mean_distance = 0;
   // Once bring_maps() has been called:
   Vec3 mean_radiance{0};              // of its maps: shown where none of them has anything
   std::vector<std::uint32_t> listed;  // into Pack::emitters: shown in closed form, left out of its maps and images
@@ -169,8 +166,6 @@ class GpuScene {
   Result<bool> bring_maps(const GpuReflector& reflector);
   // The same of a curved reflector: whether its map is there.
   Result<bool> bring_surround_map(std::uint32_t index);
-  // As points, uploaded on first use and kept; null where there is no room.
-  Result<const MapPoints*> map_points(std::uint32_t index) { return images_->points(index); }
   // To march through, of an element of the reflector; layers as its maps.
   const MapArray& map_array(const GpuReflector& reflector, std::size_t element) const {
     return images_->maps(reflector.index).elements[element];
@@ -184,16 +179,14 @@ class GpuScene {
   Result<const LightmapPage*> page(std::uint32_t index) { return images_->page(index, pack_.lightmaps[index]); }
   // Of radiance and surround maps on the device.
   std::uint64_t map_bytes() const { return images_->map_bytes() + map_meshes_.bytes(); }
-  const gpu::Texture2d& sphere_map(std::uint32_t fresnel_map);
-  // A material's, made on first use and kept. centred: as published, all of its directions weigh alike.
-  // coarse: of few taps.
-  const GpuKernel& kernel(std::uint32_t material, KernelPlace place, bool coarse);
-  const GpuKernel& mirror_kernel() { return kernel(-1, -1, KernelPlace::kLobe, false); }
+  // A material's, made on first use and kept. coarse: of few taps.
+  const GpuKernel& kernel(std::uint32_t material, bool coarse);
+  const GpuKernel& mirror_kernel() { return kernel(-1, -1, false); }
 
  private:
   GpuScene() = default;
   // Of Pack::kernels and Pack::fresnel_maps, -1: a mirror's, none.
-  const GpuKernel& kernel(std::int32_t index, std::int32_t fresnel_map, KernelPlace place, bool coarse);
+  const GpuKernel& kernel(std::int32_t index, std::int32_t fresnel_map, bool coarse);
   void upload_geometry();
   void upload_images(std::shared_ptr<const DeferredImages> deferred, const LoadingOptions& loading);
   void keep_texels();
@@ -225,10 +218,9 @@ class GpuScene {
   gpu::Buffer fewer_buffer_;                 // of their indices
   std::future<FewerTriangles> coming_;       // reads pack_, opaque_ and indices_
   FewerTriangles::Chosen chosen_;            // of the frame, empty where it shows all
-  std::vector<gpu::Texture2d> sphere_maps_;
   gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;
-  std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace, bool>, GpuKernel> kernels_;
+  std::map<std::tuple<std::int32_t, std::int32_t, bool>, GpuKernel> kernels_;
   GpuMapMeshes map_meshes_;
   BakedLamps baked_;
   std::vector<Vec3> lights_;      // by group

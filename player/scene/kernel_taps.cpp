@@ -55,7 +55,7 @@ std::vector<KernelTap> taps_of(const std::vector<float>& weights, std::size_t n,
   return taps;
 }
 
-// The published kernel at an incidence.
+// Of a kernel that does not say how it changes with incidence.
 std::vector<KernelTap> centred_taps(const BrdfKernel& kernel, int count, double cos_theta) {
   auto taps = taps_of(kernel.weights, kernel.size, count, [&](const DVec2& at) {
     const DVec2 tangent = (2.0 * at - 1.0) * double{kernel.half_extent} * DVec2(cos_theta, 1);
@@ -132,17 +132,16 @@ std::vector<float> weigh_by_fresnel(KernelTaps& taps, const FresnelMap& map) {
   return means;
 }
 
-KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count, KernelPlace place) {
+KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count) {
   KernelTaps out;
   if (kernel.size <= 1 || !(kernel.half_extent > 0) || count <= 1) {
     out.taps.push_back({});
     return out;
   }
   std::vector<std::vector<KernelTap>> slices;
-  if (place == KernelPlace::kLobe)
-    for (const KernelSlice& slice : kernel.slices)
-      slices.push_back(
-          taps_of(slice.weights, kernel.slice_size, count, [&](const DVec2& at) { return slice_point(slice, at); }));
+  for (const KernelSlice& slice : kernel.slices)
+    slices.push_back(
+        taps_of(slice.weights, kernel.slice_size, count, [&](const DVec2& at) { return slice_point(slice, at); }));
   out.count = count;
   out.rows = slices.empty() ? kCentredRows : std::max(static_cast<int>(slices.size()), 2);
   for (int i = 0; i < out.rows; ++i) {

@@ -21,13 +21,11 @@ struct KernelTaps {
   float median = 0;             // radius that holds half of the energy at normal incidence
 };
 
-// kLobe: as the lobe turns from the mirror direction with incidence, where the kernel says how. kCentred: as published
-// (Bastos et al. 1999, section 8.2.1), one kernel centred on the mirror ray; it shrinks across by the cosine.
-enum class KernelPlace { kLobe, kCentred };
-
 // `count` samples a row by inverting the cumulative distribution of the weights (rows, then columns) on a Hammersley
-// set, so that each stands for 1 / count of the energy. Deterministic. A kernel of size 1 gives one tap at the centre.
-KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count, KernelPlace place);
+// set, so that each stands for 1 / count of the energy. They are the lobe's as it turns from the mirror direction with
+// incidence; of a kernel without slices they are centred on the mirror ray and shrink across by the cosine.
+// Deterministic. A kernel of size 1 gives one tap at the centre.
+KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count);
 
 // Luminance of F where the half vector is at cosθ from the eye; 1 where the map has no factors.
 float fresnel_factor(const FresnelMap& map, double cos_theta);

@@ -43,13 +43,4 @@ gpu::Texture2d upload_lobe_fits(const BrdfKernel& kernel, const FresnelMap& fres
   return {gpu::kRgba32f, kRows, 2, texels.data()};
 }
 
-gpu::Texture2d upload_sphere_map(const FresnelMap& map) {
-  std::vector<Vec4> texels;
-  for (const Vec3& r : map.sphere) texels.emplace_back(r, 1);
-  gpu::TextureOptions options;
-  options.min_filter = options.mag_filter = GL_LINEAR;
-  const int size = static_cast<int>(map.sphere_size);
-  return {gpu::kRgba32f, size, size, texels.data(), options};
-}
-
 }  // namespace oriel

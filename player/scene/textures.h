@@ -18,6 +18,5 @@ gpu::Texture2d upload_kernel_taps(const KernelTaps& taps);
 // rows as KernelTaps'.
 gpu::Texture2d upload_lobe_fits(const BrdfKernel& kernel, const FresnelMap& fresnel,
                                 std::span<const float> mean_factors);
-gpu::Texture2d upload_sphere_map(const FresnelMap& map);
 
 }  // namespace oriel

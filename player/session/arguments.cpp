@@ -7,8 +7,8 @@
 #include "formats/core/text.h"
 #include "player/session/keys.h"
 #include "player/session/live_options.h"
-#include "player/session/method.h"
 #include "player/session/option_names.h"
+#include "player/session/reflection_options.h"
 
 namespace oriel {
 namespace {
@@ -104,9 +104,8 @@ std::vector<Option> picture_options(PlayArguments& out) {
        "to compare with",
        choice(out.frame.visible_sets, kSwitch), Use::kRare, "pvs"},
       {"--lightmap-filter", kPicture,
-       "Light between texels: from four of them, or smoother from sixteen by a cubic B-spline, as the radiosity "
-       "textures of Bastos et al.; beside a chart's border and in finer cells from four. Not of a pack with vertex "
-       "colours",
+       "Light between texels: from four of them, or smoother from sixteen by a cubic B-spline; beside a chart's border "
+       "and in finer cells from four. Not of a pack with vertex colours",
        choice(out.frame.lightmap_filter, kLightmapFilters), Use::kRare, "lightmap_filter"},
       {"--no-mipmaps", kPicture,
        "Textures at full resolution at each pixel's centre, as a ray tracer without antialiasing samples them: for "
@@ -300,8 +299,6 @@ Status settle(const Given& given, PlayArguments& out) {
   out.given = given.typed();
   out.toned = given.has("--tonemap"), out.sampled = given.has("--samples"), out.divided = given.has("--split");
   out.frame.halves = out.makes_pictures();
-  if (const std::string complaint = settle_method(given, out); !complaint.empty())
-    return fail(ErrorCode::kUsage, "", "{}", complaint);
   if (const std::string complaint = contradiction(out); !complaint.empty())
     return fail(ErrorCode::kUsage, "", "{}", complaint);
   return {};

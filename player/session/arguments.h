@@ -22,9 +22,6 @@ namespace oriel {
 // Of a pixel, unless told: a sawtooth edge is the first thing that people see.
 inline constexpr int kSamples = 4;
 
-// A whole way of showing reflections: that of the options, or all of them as Bastos et al. 1999 published it.
-enum class ShownMethod { kOriel, kBastos1999 };
-
 struct PlayArguments {
   std::vector<std::string> given;  // long names of options that the command line has
   std::string pack;
@@ -47,7 +44,6 @@ struct PlayArguments {
   std::optional<float> ev100;  // nothing: automatic
   ToneCurve curve = ToneCurve::kAces;
   FrameOptions frame{.samples = kSamples};
-  ShownMethod method = ShownMethod::kOriel;
   std::string output;          // a file, or a folder
   std::string format = "png";  // of files in a folder
   bool toned = false;          // --tonemap was given

@@ -14,16 +14,12 @@ inline constexpr Named<Show> kStages[] = {
     {"MKR", Show::kMKR},       {"all", Show::kAll},    {"charts", Show::kCharts},
     {"error", Show::kError},   {"lux", Show::kLux},    {"overdraw", Show::kOverdraw},
     {"texels", Show::kTexels}, {"zones", Show::kZones}};
-inline constexpr Named<Reflections> kReflections[] = {
-    {"chosen", Reflections::kChosen}, {"geometry", Reflections::kGeometry}, {"march", Reflections::kMarch},
-    {"mesh", Reflections::kMesh},     {"off", Reflections::kOff},           {"points", Reflections::kPoints}};
-inline constexpr Named<Selection> kSelections[] = {{"angle", Selection::kAngle}, {"distance", Selection::kDistance}};
-inline constexpr Named<Blur> kBlurs[] = {
-    {"constant", Blur::kConstant}, {"distance", Blur::kDistance}, {"off", Blur::kOff}};
-inline constexpr Named<KernelPlace> kKernelPlaces[] = {{"centred", KernelPlace::kCentred},
-                                                       {"lobe", KernelPlace::kLobe}};
-inline constexpr Named<Reflectance> kReflectances[] = {{"sphere", Reflectance::kSphereMap},
-                                                       {"table", Reflectance::kTable}};
+inline constexpr Named<Reflections> kReflections[] = {{"chosen", Reflections::kChosen},
+                                                      {"geometry", Reflections::kGeometry},
+                                                      {"march", Reflections::kMarch},
+                                                      {"mesh", Reflections::kMesh},
+                                                      {"off", Reflections::kOff}};
+inline constexpr Named<Blur> kBlurs[] = {{"distance", Blur::kDistance}, {"off", Blur::kOff}};
 inline constexpr Named<LightmapFilter> kLightmapFilters[] = {{"bicubic", LightmapFilter::kBicubic},
                                                              {"bilinear", LightmapFilter::kBilinear}};
 inline constexpr Named<MoverLights> kMoverLights[] = {{"harmonics", MoverLights::kHarmonics},

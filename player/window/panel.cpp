@@ -34,11 +34,7 @@ void draw_quality(const FrameMeter& meter, Session& session) {
   bool reflects = session.frame.reflections != Reflections::kOff;
   if (ImGui::Checkbox("reflections", &reflects))
     session.frame.reflections = reflects ? Reflections::kChosen : Reflections::kOff;
-  // The published blur is a choice of the advanced ones.
-  Blur blur = session.frame.blur == Blur::kOff ? Blur::kOff : Blur::kDistance;
-  choose("their sharpness", kSharpness, blur);
-  if (blur != session.frame.blur && (session.frame.blur != Blur::kConstant || blur == Blur::kOff))
-    session.frame.blur = blur;
+  choose("their sharpness", kSharpness, session.frame.blur);
 }
 
 // In the words of Bastos et al. 1999.
@@ -51,10 +47,6 @@ void draw_advanced(Session& session) {
   }
   choose("reflected by", kReflections, frame.reflections);
   ImGui::SliderInt("maps", &frame.maps_per_element, 0, 8);
-  choose("selection", kSelections, frame.selection);
-  choose("blur", kBlurs, frame.blur);
-  choose("kernel", kKernelPlaces, frame.kernel);
-  choose("Fresnel", kReflectances, frame.reflectance);
   float white = white_of_exposure(session.shown_ev100);
   if (ImGui::SliderFloat("white, cd/m²", &white, white_of_exposure(kLeastEv100), white_of_exposure(kMostEv100), "%.4g",
                          ImGuiSliderFlags_Logarithmic))

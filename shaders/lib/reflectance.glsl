@@ -8,9 +8,3 @@ vec3 reflectance_from_table(sampler2D tables, int row, int count, float cos_thet
   vec3 b = texelFetch(tables, ivec2(min(low + 1, count - 1), row), 0).rgb;
   return mix(a, b, at - float(low));
 }
-
-// Where a direction at angle theta from the normal, with unit tangential direction `around`, lies in the sphere map: an
-// equal-area disk, r = sqrt(2) sin(theta / 2). sin^2(theta / 2) = (1 - cos theta) / 2.
-vec2 sphere_map_uv(float cos_theta, vec2 around) {
-  return 0.5 + 0.5 * sqrt(1.0 - clamp(cos_theta, 0.0, 1.0)) * around;
-}

@@ -4,13 +4,11 @@
 
 uniform vec4 u_eye;
 uniform vec3 u_normal;           // of the reflector, unit, pack space
-uniform sampler2D u_reflectance; // tables, or the sphere map
+uniform sampler2D u_reflectance; // tables
 uniform int u_reflectance_row;   // -1: reflects nothing
 uniform int u_reflectance_count; // entries of the table
-uniform bool u_sphere_map;
 uniform bool u_modulate;         // by R
 in vec3 v_position;
-in vec2 v_sphere;
 
 float reflector_cosine() { return view_cosine(u_normal, u_normal, v_position, u_eye); }
 
@@ -18,6 +16,5 @@ float reflector_cosine() { return view_cosine(u_normal, u_normal, v_position, u_
 vec3 reflector_reflectance(float cos_theta) {
   if (!u_modulate) return vec3(1.0);
   if (u_reflectance_row < 0) return vec3(0.0);
-  if (u_sphere_map) return texture(u_reflectance, v_sphere).rgb;
   return reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta);
 }

@@ -10,12 +10,12 @@ namespace {
 constexpr GLuint kImageBit = 0x80, kLitBit = 0x40, kCountBits = 0x3f;
 constexpr std::size_t kMostTargets = 8;  // that are kept
 
-std::vector<LightMirror> mirrors_of(GpuScene& scene, const FrameOptions& options) {
+std::vector<LightMirror> mirrors_of(GpuScene& scene) {
   std::vector<LightMirror> mirrors;
   for (const GpuReflector& reflector : scene.reflectors()) {
     const Material& m = scene.pack().materials[reflector.material];
     if (scene.is_transparent(reflector.material) || m.fresnel_map < 0 || reflector.index_count == 0) continue;
-    if (scene.kernel(reflector.material, options.kernel, false).blurs()) continue;
+    if (scene.kernel(reflector.material, false).blurs()) continue;
     const float flatness = scene.pack().reflectors[reflector.index].flatness_m;
     mirrors.push_back({reflector.index, glm::transpose(reflector.reflector_from_pack)[2],
                        flatness + 1e-5f * reflector.size, reflector.corners});
@@ -40,7 +40,7 @@ Status MultiPass::make_programs() {
 
 Status MultiPass::begin(const FrameContext& context, std::span<const PlacedMover> movers) {
   ORIEL_TRY_VOID(make_programs());
-  mirrors_ = mirrors_of(context.scene, context.options);
+  mirrors_ = mirrors_of(context.scene);
   sources_ = sources_of(context.scene.bright_lights(), settings.points, context.options.look);
   paths_ = find_light_paths(sources_, mirrors_, settings.mirrors);
   volumes_->begin(context, movers, mirrors_);

@@ -28,7 +28,7 @@ std::vector<RadianceMap> uniform_maps(const std::vector<RadianceMap>& planned, s
     if (i > 0 && planned[i].lower == planned[i - 1].lower && planned[i].upper == planned[i - 1].upper) continue;
     RadianceMap map = planned[i];
     const Vec2 middle = 0.5f * (map.lower + map.upper);
-    for (const Vec3& direction : hemisphere_directions(count, Rings::kToRim)) {
+    for (const Vec3& direction : hemisphere_directions(count, {0.5 * kPiD, 0.5})) {
       map.eye = Vec3(middle, 0) + 0.5f * glm::length(map.upper - map.lower) * direction;
       out.push_back(map);
     }

@@ -39,8 +39,6 @@ LightmapPage flat_page(const Vec3& irradiance) {
 FresnelMap flat_reflectance(const Vec3& reflectance) {
   FresnelMap map;
   map.table.assign(8, reflectance);
-  map.sphere_size = 8;
-  map.sphere.assign(64, reflectance);
   return map;
 }
 

@@ -28,7 +28,7 @@ class Holes : public FrameTest {
 
 TEST_F(Holes, AreCountedOverTheMirrorsPixels) {
   const Pack whole = pack_with_holes();
-  for (const Reflections mode : {Reflections::kMarch, Reflections::kPoints}) {
+  for (const Reflections mode : {Reflections::kMarch}) {
     const FrameStats stats = count(whole, mode);
     const std::vector<std::int32_t> shown = renderer_->read_reflective();
     ASSERT_EQ(shown.size(), 120u * 90);
@@ -43,38 +43,11 @@ TEST_F(Holes, AreCountedOverTheMirrorsPixels) {
   RadianceMap& map = half.radiance_maps[0];
   for (std::uint32_t y = 0; y < map.height; ++y)
     for (std::uint32_t x = 0; x < map.width / 2; ++x) map.valid[y * map.width + x] = 0;
-  for (const Reflections mode : {Reflections::kMarch, Reflections::kPoints}) {
+  for (const Reflections mode : {Reflections::kMarch}) {
     const FrameStats stats = count(half, mode);
     const double share = static_cast<double>(stats.holes) / static_cast<double>(stats.reflected_pixels);
     EXPECT_NEAR(share, 0.5, 0.03);
   }
-}
-
-// As published what no map tells of stays black, and a kernel for all of the image reaches over its edge.
-TEST_F(Holes, StayBlackWhereTheyAreNotFilled) {
-  Pack half = pack_with_holes();
-  RadianceMap& map = half.radiance_maps[0];
-  for (std::uint32_t i = 0; i < map.width * map.height; ++i) map.valid[i] = i % map.width >= map.width / 2;
-  BrdfKernel kernel;
-  kernel.size = 3;
-  kernel.weights.assign(9, 1.0f / 9);
-  kernel.half_extent = 0.2f;
-  const auto shown = [&](bool fill, Blur blur) {
-    FrameOptions options{.reflections = Reflections::kPoints, .fill = fill, .blur = blur};
-    options.show = Show::kMK;
-    const Camera camera{.name = "", .eye = {0, 0, 1}, .forward = {0, 0, -1}, .up = {0, 1, 0}, .vertical_fov_rad = 2.2f};
-    const Picture p = draw(half, camera, 120, 90, options);
-    return std::array{p.at(50, 45).x, p.at(59, 45).x, p.at(70, 45).x};
-  };
-  EXPECT_NEAR(shown(true, Blur::kOff)[0], 10, 0.01);
-  EXPECT_EQ(shown(false, Blur::kOff)[0], 0);
-  half.kernels.push_back(kernel);
-  half.materials[0].kernel = 0;
-  const auto [far, edge, known] = shown(false, Blur::kConstant);
-  EXPECT_EQ(far, 0);
-  EXPECT_GT(edge, 1);
-  EXPECT_LT(edge, 9);
-  EXPECT_NEAR(known, 10, 0.01);
 }
 
 // Through a pixel's middle the eye sees 2 tan(1.1) / 90 of a map pixel's 2 / size a metre away: a map pixel covers no
@@ -89,7 +62,7 @@ TEST_F(Holes, SharpIsWhereAMapPixelCoversNoMoreThanTwo) {
   EXPECT_EQ(share(4), 0);
   const double distance = 90 / (2 * std::tan(1.1)) / 18;  // of a map of 18² pixels: a circle in the square of 4 m²
   EXPECT_NEAR(share(18), 1 - kPi * (distance * distance - 1) / 4, 0.02);
-  EXPECT_EQ(count(pack_with_holes(), Reflections::kPoints).mirror_pixels, 0u) << "known for march only";
+  EXPECT_EQ(count(pack_with_holes(), Reflections::kGeometry).mirror_pixels, 0u) << "known for march only";
   Pack blurred = pack_with_holes();
   blurred.kernels.resize(1);
   blurred.kernels[0].size = 3;

@@ -128,7 +128,7 @@ class LightsInMaps : public FrameTest {
 
 TEST_F(LightsInMaps, EachPixelFollowsWhatItShows) {
   const Pack pack = two_walls();
-  for (const Reflections way : {Reflections::kMarch, Reflections::kMesh, Reflections::kPoints}) {
+  for (const Reflections way : {Reflections::kMarch, Reflections::kMesh}) {
     SCOPED_TRACE(static_cast<int>(way));
     FrameOptions options;
     options.reflections = way;

@@ -24,8 +24,8 @@ TEST_F(Play, UsageErrors) {
   EXPECT_TRUE(ends(run("tiny.oriel -o a.png"), 1, "--offscreen"));
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen -o a.jpg"), 1, ".jpg"));
   for (const char* bad : {"--size 0x5", "--size 12", "--size 10x10x10", "--exposure bright", "--exposure nan",
-                          "--show X", "--maps -1", "--maps many", "--select near", "--reflections all", "--blur none",
-                          "--path", "--stats", "--tonemap filmic", "--size 100000x2", "--frames 0"}) {
+                          "--show X", "--maps -1", "--maps many", "--reflections all", "--blur none", "--path",
+                          "--stats", "--tonemap filmic", "--size 100000x2", "--frames 0"}) {
     EXPECT_EQ(run(std::string("tiny.oriel --offscreen -o a.png ") + bad).code, 1) << bad;
   }
   for (const char* ignored : {"--frames 2", "--format exr", "--tonemap none", "--show M", "--stats s.json"}) {
@@ -92,26 +92,10 @@ TEST_F(Play, SeveralCamerasGoIntoAFolder) {
 }
 
 TEST_F(Play, EveryStageAndOption) {
-  for (const char* options : {"--show M",
-                              "--show MK",
-                              "--show MKR",
-                              "--show D",
-                              "--show charts",
-                              "--show overdraw",
-                              "--show zones",
-                              "--tonemap none",
-                              "--maps 1",
-                              "--select distance",
-                              "--blur constant",
-                              "--blur off",
-                              "--fresnel sphere",
-                              "--reflections points",
-                              "--reflections geometry",
-                              "--reflections off",
-                              "--exposure -3.5",
-                              "--exposure auto",
-                              "--no-mipmaps",
-                              "--gl-debug"}) {
+  for (const char* options :
+       {"--show M", "--show MK", "--show MKR", "--show D", "--show charts", "--show overdraw", "--show zones",
+        "--tonemap none", "--maps 1", "--blur off", "--reflections march", "--reflections geometry",
+        "--reflections off", "--exposure -3.5", "--exposure auto", "--no-mipmaps", "--gl-debug"}) {
     EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png"))
         << options;
   }
@@ -123,13 +107,13 @@ TEST_F(Play, StatsTellHowTheFramesWereDrawn) {
   named.cameras[0].name = "caf\xe9";
   named.provenance = R"({"options": {"eyes": "file", "eye_points": [[1e4, 0, 0]]}})";  // far from any camera
   ASSERT_TRUE(write_pack(folder() / "named.oriel", named));
-  ASSERT_EQ(run("named.oriel --offscreen --size 32x18 --camera 0 --reflections points --blur off --stats s.json").code,
+  ASSERT_EQ(run("named.oriel --offscreen --size 32x18 --camera 0 --reflections march --blur off --stats s.json").code,
             0);
   std::ifstream in(folder() / "s.json");
   std::stringstream text;
   text << in.rdbuf();
-  for (const char* found : {"\"reflections\": \"points\"", "\"blur\": \"off\"", "\"select\": \"angle\"",
-                            "\"holes\":", "\"sharp\":", "\"in_zone\": false", "caf"})
+  for (const char* found :
+       {"\"reflections\": \"march\"", "\"blur\": \"off\"", "\"holes\":", "\"sharp\":", "\"in_zone\": false", "caf"})
     EXPECT_NE(text.str().find(found), std::string::npos) << found << " in " << text.str();
 }
 

@@ -131,8 +131,6 @@ FresnelMap tiny_fresnel_map() {
   FresnelMap map;
   map.alpha = 0.0625f;
   for (int i = 0; i < 5; ++i) map.table.push_back(Vec3(0.9f, 0.8f, 0.7f) + Vec3(0.02f * static_cast<float>(4 - i)));
-  map.sphere_size = 3;
-  for (int i = 0; i < 9; ++i) map.sphere.push_back(Vec3(0.1f * static_cast<float>(i)));
   return map;
 }
 

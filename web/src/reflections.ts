@@ -267,7 +267,6 @@ export class Reflections {
     program.set('u_eye', target.view.eye);
     program.set('u_normal', [m[8]!, m[9]!, m[10]!]);
     scene.setReflectance(program, r.material);
-    program.set('u_sphere_map', false);
     program.set('u_modulate', true);
   }
 

@@ -1,5 +1,4 @@
 // Fresnel maps against the exact reflectance that they approximate.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,57 +52,35 @@ double max_difference(const Vec3& a, const Vec3& b) {
   return max_component(glm::abs(a - b));
 }
 
-// The largest difference of any channel from the exact R over angles that are dense at grazing; and the mean one over
-// the sphere map's disk.
-struct FresnelMapErrors {
-  double table = 0, sphere = 0, sphere_mean = 0;
-};
-FresnelMapErrors measure_errors(const FresnelMap& map, const SpecularLayers& layers) {
+// The largest difference of any channel from the exact R over angles that are dense at grazing.
+double measure_error(const FresnelMap& map, const SpecularLayers& layers) {
   const ExactLayers exact(layers);
-  FresnelMapErrors errors;
+  double error = 0;
   for (int i = 0; i <= kProbes; ++i) {
     const double root = static_cast<double>(i) / kProbes;
     const auto cos_theta = static_cast<float>(root * root * root);
     const Vec3 r = exact(cos_theta);
-    errors.table = std::max(errors.table, max_difference(r, fresnel_lookup(map, cos_theta)));
-    if (!map.sphere.empty()) errors.sphere = std::max(errors.sphere, max_difference(r, sphere_lookup(map, cos_theta)));
+    error = std::max(error, max_difference(r, fresnel_lookup(map, cos_theta)));
   }
-  for (int i = 0; i < kProbes && !map.sphere.empty(); ++i) {
-    const auto cos_theta = static_cast<float>((i + 0.5) / kProbes);  // even in cosθ = even in the disk's area
-    errors.sphere_mean += max_difference(exact(cos_theta), sphere_lookup(map, cos_theta)) / kProbes;
-  }
-  return errors;
-}
-
-void print(const std::string& name, float alpha, const FresnelMapErrors& errors) {
-  std::printf("%-12s alpha %-4g  1-D table %.1e  sphere map %.1e (mean %.1e)\n", name.c_str(),
-              static_cast<double>(alpha), errors.table, errors.sphere, errors.sphere_mean);
+  return error;
 }
 
 // The table that the player reads keeps its error for all metals and from an index that hardly reflects to diamond.
 TEST(FresnelMap, TableIsWithinAThousandthOfExact) {
-  double worst_sphere = 0;
   for (const float alpha : {0.0f, 0.01f, 0.1f, 0.5f}) {
     for (int m = 0; m < kMetalCount; ++m) {
       const SpecularLayers layers = metal(static_cast<Metal>(m), alpha);
-      const FresnelMapErrors errors = measure_errors(make_fresnel_map(layers), layers);
-      print(constants_of(static_cast<Metal>(m)).name, alpha, errors);
-      EXPECT_LT(errors.table, 1e-3) << constants_of(static_cast<Metal>(m)).name << " " << alpha;
-      worst_sphere = std::max(worst_sphere, errors.sphere);
+      EXPECT_LT(measure_error(make_fresnel_map(layers), layers), 1e-3)
+          << constants_of(static_cast<Metal>(m)).name << " " << alpha;
     }
     for (const double eta : {1.0001, 1.33, 1.5, 2.5}) {
       const SpecularLayers layers = dielectric(eta, alpha);
-      const FresnelMapErrors errors = measure_errors(make_fresnel_map(layers), layers);
-      print(fmt::format("index {}", eta), alpha, errors);
-      EXPECT_LT(errors.table, 1e-3) << eta << " " << alpha;
-      if (eta > 1.1) worst_sphere = std::max(worst_sphere, errors.sphere);
+      EXPECT_LT(measure_error(make_fresnel_map(layers), layers), 1e-3) << eta << " " << alpha;
     }
   }
-  EXPECT_GT(worst_sphere, 1e-3) << "the trade: a sphere map of 64² has few texels at the rim";
   // The checker sees a table that is too small.
   const SpecularLayers thin = dielectric(1.0001, 0);
-  const FresnelMap coarse = make_fresnel_map(thin, {.max_entries = 65});
-  EXPECT_GT(measure_errors(coarse, thin).table, 1e-3);
+  EXPECT_GT(measure_error(make_fresnel_map(thin, {.max_entries = 65}), thin), 1e-3);
 }
 
 TEST(FresnelMap, MirrorFollowsTheExactEquationsTo90Degrees) {
@@ -147,7 +124,7 @@ TEST(FresnelMap, SplitTableServesAnyF0) {
 // Figure 6 of Bastos et al.: gold is red-yellow from above and white at the rim.
 TEST(FresnelMap, GoldTurnsWhiteAtGrazing) {
   const FresnelMap map = make_fresnel_map(metal(Metal::kGold, 0.01f));
-  const Vec3 centre = map.sphere[32 * 64 + 32], rim = map.table.front();
+  const Vec3 centre = map.table.back(), rim = map.table.front();
   EXPECT_NEAR(centre.r, 0.94f, 0.01);
   EXPECT_NEAR(centre.g, 0.70f, 0.01);
   EXPECT_NEAR(centre.b, 0.40f, 0.01);
@@ -173,47 +150,16 @@ TEST(FresnelMap, LookupInterpolatesTheTable) {
   EXPECT_EQ(fresnel_lookup(map, 2), map.table.back());
   EXPECT_EQ(fresnel_lookup(map, std::numeric_limits<float>::quiet_NaN()), map.table.front());
   EXPECT_EQ(fresnel_lookup(FresnelMap{}, 0.5f), Vec3(0));
-  EXPECT_EQ(sphere_lookup(FresnelMap{}, 0.5f), Vec3(0));
-}
-
-// Centre = normal, rim = grazing, and equal area: cosθ = 1 - r².
-TEST(FresnelMap, SphereMapHoldsTheSameReflectanceAsTheTable) {
-  const FresnelMap map = make_fresnel_map(schlick(Vec3(0.04f), 1, 0.04f));
-  ASSERT_EQ(map.sphere.size(), 64u * 64u);
-  for (std::uint32_t y = 0; y < 64; ++y)
-    for (std::uint32_t x = 0; x < 64; ++x) {
-      const double px = (x + 0.5) / 32 - 1, py = (y + 0.5) / 32 - 1, r = std::min(1.0, std::hypot(px, py));
-      const double theta = 2 * std::asin(r / std::sqrt(2.0));
-      EXPECT_NEAR(map.sphere[y * 64 + x].r, fresnel_lookup(map, static_cast<float>(std::cos(theta))).r, 1e-3);
-    }
-  EXPECT_EQ(map.sphere[0], map.sphere[64 * 64 - 1]);  // corners: the rim's value
-  EXPECT_EQ(sphere_map_cos_theta(0), 1);
-  EXPECT_EQ(sphere_map_cos_theta(1.3f), 0);
-}
-
-// Bastos et al. 1999, equation (4): π F / (π N·L N·V), which is F seen straight, four times that at 60°, and 1 where it
-// would be more.
-TEST(FresnelMap, SphereMapHoldsEquationFourWhereAsked) {
-  const FresnelMap map = make_fresnel_map(schlick(Vec3(0.04f), 1, 0.3f), {.sphere_size = 256, .equation_4 = true});
-  const auto at = [&](double cos_theta) { return sphere_lookup(map, static_cast<float>(cos_theta)).g; };
-  EXPECT_NEAR(at(1), 0.04, 1e-3);
-  for (const double c : {0.9, 0.7, 0.5, 0.4})
-    EXPECT_NEAR(at(c), (0.04 + 0.96 * std::pow(1 - c, 5)) / (c * c), 5e-3) << c;
-  EXPECT_EQ(at(0.1), 1);
-  EXPECT_GT(at(0.5), 3 * fresnel_lookup(map, 0.5f).g) << "the table stays the directional albedo";
 }
 
 TEST(FresnelMap, BadNumbersAreClamped) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  const FresnelMap map =
-      make_fresnel_map(schlick({nan, inf, -1}, nan, nan), {.min_entries = 0, .max_entries = 2, .sphere_size = 3});
+  const FresnelMap map = make_fresnel_map(schlick({nan, inf, -1}, nan, nan), {.min_entries = 0, .max_entries = 2});
   EXPECT_EQ(map.table.size(), 2u);
-  EXPECT_EQ(map.sphere.size(), 9u);
   for (const Vec3& r : map.table) {
     EXPECT_TRUE(is_finite(r));
     EXPECT_LE(max_component(r), 1);
   }
-  EXPECT_TRUE(make_fresnel_map(schlick(Vec3(0.5f), 1, 0.1f), {.sphere_size = 0}).sphere.empty());
 }
 
 }  // namespace

@@ -145,8 +145,9 @@ TEST(Materials, SameBytesForAnyNumberOfThreads) {
   ASSERT_TRUE(a && b);
   ASSERT_EQ(a->kernels.size(), b->kernels.size());
   for (std::size_t i = 0; i < a->kernels.size(); ++i) EXPECT_EQ(a->kernels[i].weights, b->kernels[i].weights);
+  ASSERT_EQ(a->fresnel_maps.size(), b->fresnel_maps.size());
   for (std::size_t i = 0; i < a->fresnel_maps.size(); ++i)
-    EXPECT_EQ(a->fresnel_maps[i].sphere, b->fresnel_maps[i].sphere);
+    EXPECT_EQ(a->fresnel_maps[i].table, b->fresnel_maps[i].table);
 }
 
 TEST(Materials, StopIsObeyed) {

@@ -32,14 +32,14 @@ TEST(Sharing, WidthsAreGroupedByTheErrorAsked) {
 
 // The kernels of a group's ends differ from the group's by no more than was asked.
 TEST(Sharing, GroupsKeepTheError) {
-  for (const KernelModel model : {KernelModel::kBeckmann, KernelModel::kGgx})
+  for (const FacetModel model : {FacetModel::kBeckmann, FacetModel::kGgx})
     for (const double error : {0.01, 0.05}) {
       const float factor = std::exp(static_cast<float>(error) * 2.718281828f / 4);
       const float alpha = 0.02f;
       EXPECT_EQ(group_widths(std::vector<float>{alpha / factor, alpha * factor * 0.999f}, error).values.size(), 1u);
       EXPECT_EQ(group_widths(std::vector<float>{alpha / factor, alpha * factor * 1.001f}, error).values.size(), 2u);
       const KernelOptions fine{.max_size = 201, .energy = 0.99f};
-      const BrdfKernel middle = make_kernel(alpha, model, 1, fine);
+      const BrdfKernel middle = make_kernel(alpha, lobe_of(model), 1, fine);
       // The end's lobe over the same directions.
       BrdfKernel end = middle;
       double sum = 0;

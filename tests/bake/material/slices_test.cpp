@@ -13,7 +13,7 @@
 namespace oriel {
 namespace {
 
-constexpr KernelModel kModels[] = {KernelModel::kBeckmann, KernelModel::kGgx};
+constexpr FacetModel kModels[] = {FacetModel::kBeckmann, FacetModel::kGgx};
 
 double sum(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
@@ -46,19 +46,18 @@ double encircled(const KernelSlice& s, double gamma_rad) {
 
 TEST(Slices, HoldTheirPromisesAtEveryExtreme) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const KernelModel model : kModels)
-    for (const float alpha : {0.0f, 1e-6f, 1.1e-5f, 1e-4f, 1e-2f, 0.3f, 1.0f, nan}) {
-      BrdfKernel kernel = make_kernel(alpha, model);
-      add_slices(kernel);
-      EXPECT_EQ(kernel.slices.empty(), alpha < 1e-5) << alpha;
-      float before = 0;
-      for (const KernelSlice& slice : kernel.slices) {
-        EXPECT_EQ(broken_promise(slice, kernel.slice_size), "") << alpha << " at " << slice.cos_theta;
-        EXPECT_GT(slice.cos_theta, before);
-        EXPECT_GE(slice.energy_kept, 0.985) << alpha << " at " << slice.cos_theta;
-        before = slice.cos_theta;
-      }
+  for (const float alpha : {0.0f, 1e-6f, 1.1e-5f, 1e-4f, 1e-2f, 0.3f, 1.0f, nan}) {
+    BrdfKernel kernel = make_kernel(alpha);
+    add_slices(kernel);
+    EXPECT_EQ(kernel.slices.empty(), alpha < 1e-5) << alpha;
+    float before = 0;
+    for (const KernelSlice& slice : kernel.slices) {
+      EXPECT_EQ(broken_promise(slice, kernel.slice_size), "") << alpha << " at " << slice.cos_theta;
+      EXPECT_GT(slice.cos_theta, before);
+      EXPECT_GE(slice.energy_kept, 0.985) << alpha << " at " << slice.cos_theta;
+      before = slice.cos_theta;
     }
+  }
 }
 
 // Packs hold halves. Rounded one by one they added up to 0.9999 for some lobes, and such packs were refused.
@@ -66,7 +65,7 @@ TEST(Slices, WeightsAreHalvesThatAddUpToOne) {
   for (int k = 1; k <= 60; ++k) {
     const float alpha = std::pow(10.0f, -0.05f * static_cast<float>(k));
     for (const double cosine : {0.05, 0.3, 1.0}) {
-      const KernelSlice slice = make_slice(microfacet_lobe(KernelModel::kGgx, LobeForm::kLobe, alpha), alpha, cosine);
+      const KernelSlice slice = make_slice(microfacet_lobe(FacetModel::kGgx, alpha), alpha, cosine);
       double sum = 0;
       for (const float w : slice.weights) sum += float_from_half(half_from_float(w));
       EXPECT_NEAR(sum, 1, 1e-6) << alpha << " at " << cosine;
@@ -75,7 +74,7 @@ TEST(Slices, WeightsAreHalvesThatAddUpToOne) {
 }
 
 TEST(Slices, PromisesCanBeSeenToBreak) {
-  KernelSlice slice = make_slice(microfacet_lobe(KernelModel::kGgx, LobeForm::kLobe, 0.1), 0.1, 0.5);
+  KernelSlice slice = make_slice(microfacet_lobe(FacetModel::kGgx, 0.1), 0.1, 0.5);
   EXPECT_EQ(broken_promise(slice, 31), "");
   slice.weights[3] += 0.01f;
   EXPECT_EQ(broken_promise(slice, 31), "left and right differ");
@@ -99,8 +98,8 @@ TEST(Slices, CoordinatesGoThereAndBack) {
 // slope s lies s² / (s² + α²) of GGX and 1 - exp(-s² / α²) of Beckmann.
 TEST(Slices, NarrowLobesHaveTheDistributionsShares) {
   for (const double alpha : {1e-5, 1e-3, 1e-2}) {
-    const KernelSlice ggx = make_slice(microfacet_lobe(KernelModel::kGgx, LobeForm::kLobe, alpha), alpha, 1);
-    const KernelSlice beckmann = make_slice(microfacet_lobe(KernelModel::kBeckmann, LobeForm::kLobe, alpha), alpha, 1);
+    const KernelSlice ggx = make_slice(microfacet_lobe(FacetModel::kGgx, alpha), alpha, 1);
+    const KernelSlice beckmann = make_slice(microfacet_lobe(FacetModel::kBeckmann, alpha), alpha, 1);
     for (const double t : {0.3, 1.0, 1.7}) {
       const double gamma = 2 * std::atan(t * alpha);
       EXPECT_NEAR(encircled(ggx, gamma), t * t / (1 + t * t), 5e-3);
@@ -118,7 +117,7 @@ TEST(Slices, NarrowLobesHaveTheDistributionsShares) {
 // than across by 1 / cosθ.
 TEST(Slices, NarrowLobesStretchByTheCosine) {
   for (const double c : {0.9, 0.5, 0.2}) {
-    const KernelSlice s = make_slice(microfacet_lobe(KernelModel::kBeckmann, LobeForm::kLobe, 1e-3), 1e-3, c);
+    const KernelSlice s = make_slice(microfacet_lobe(FacetModel::kBeckmann, 1e-3), 1e-3, c);
     EXPECT_NEAR(s.width.x / s.width.y, c, 0.02 * c);
     EXPECT_NEAR(s.shift / s.width.y, 0, 0.02);
   }
@@ -127,10 +126,10 @@ TEST(Slices, NarrowLobesStretchByTheCosine) {
 // Beckmann's half vectors at oblique incidence, seen as slopes: no lobe is left of the horizon at 89°, and its mean
 // rises above the mirror direction.
 TEST(Slices, GrazingLobesRiseOverTheMirrorDirection) {
-  for (const KernelModel model : kModels) {
+  for (const FacetModel model : kModels) {
     double before = 0;
     for (const double c : {0.9, 0.5, 0.2, 0.1}) {
-      const KernelSlice s = make_slice(microfacet_lobe(model, LobeForm::kLobe, 0.2), 0.2, c);
+      const KernelSlice s = make_slice(microfacet_lobe(model, 0.2), 0.2, c);
       EXPECT_GT(s.tilt_rad, before) << c;
       before = s.tilt_rad;
     }
@@ -166,30 +165,29 @@ double l1(const std::vector<double>& a, const std::vector<float>& b) {
 
 TEST(Slices, WeightsAreTheIntegratedLobe) {
   double worst = 0;
-  for (const KernelModel model : kModels)
-    for (const LobeForm form : {LobeForm::kD, LobeForm::kDg, LobeForm::kLobe})
-      for (const double alpha : {1e-3, 0.01, 0.1, 0.3, 0.6, 1.0})
-        for (const double c : {1.0, 0.7, 0.4, 0.2, 0.1, 0.05}) {
-          const LobeFunction lobe = microfacet_lobe(model, form, alpha);
-          const KernelSlice s = make_slice(lobe, alpha, c);
-          const double off = l1(integrated(lobe, c, s), s.weights);
-          worst = std::max(worst, off);
-          EXPECT_LE(off, 0.01) << alpha << " at " << c;
-        }
+  for (const FacetModel model : kModels)
+    for (const double alpha : {1e-3, 0.01, 0.1, 0.3, 0.6, 1.0})
+      for (const double c : {1.0, 0.7, 0.4, 0.2, 0.1, 0.05}) {
+        const LobeFunction lobe = microfacet_lobe(model, alpha);
+        const KernelSlice s = make_slice(lobe, alpha, c);
+        const double off = l1(integrated(lobe, c, s), s.weights);
+        worst = std::max(worst, off);
+        EXPECT_LE(off, 0.01) << alpha << " at " << c;
+      }
   std::printf("weights of K are off by at most %.2f %% (L1)\n", 100 * worst);
 }
 
 TEST(Slices, AnotherLobeIsSeen) {
-  const KernelSlice s = make_slice(microfacet_lobe(KernelModel::kGgx, LobeForm::kLobe, 0.2), 0.2, 0.2);
-  EXPECT_GT(l1(integrated(microfacet_lobe(KernelModel::kGgx, LobeForm::kLobe, 0.21), 0.2, s), s.weights), 0.01);
+  const KernelSlice s = make_slice(microfacet_lobe(FacetModel::kGgx, 0.2), 0.2, 0.2);
+  EXPECT_GT(l1(integrated(microfacet_lobe(FacetModel::kGgx, 0.21), 0.2, s), s.weights), 0.01);
 }
 
 // Albedo, mean direction and shares by a rule over directions instead of half vectors.
 TEST(Slices, EnergyAndCentreAreTheLobes) {
-  for (const KernelModel model : kModels)
+  for (const FacetModel model : kModels)
     for (const double alpha : {0.2, 0.6})
       for (const double c : {1.0, 0.4, 0.1}) {
-        const LobeFunction lobe = microfacet_lobe(model, LobeForm::kLobe, alpha);
+        const LobeFunction lobe = microfacet_lobe(model, alpha);
         const KernelSlice s = make_slice(lobe, alpha, c);
         const DVec3 wo(std::sqrt(1 - c * c), 0, c), mirror(-wo.x, 0, c);
         const int n = 1000;

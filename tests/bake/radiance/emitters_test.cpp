@@ -7,7 +7,7 @@
 #include "bake/radiance/punctual_emitter.h"
 #include "bake/radiance/reproject.h"
 #include "bake/radiance/sun_emitter.h"
-#include "bake/radiance/views.h"
+#include "tests/bake/radiance/uniform_views.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bake/radiance/capture.h"
-#include "bake/radiance/views.h"
+#include "tests/bake/radiance/uniform_views.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel::test {

@@ -4,7 +4,7 @@
 #include "bake/radiance/capture.h"
 #include "bake/radiance/residual.h"
 #include "bake/radiance/samples.h"
-#include "bake/radiance/views.h"
+#include "tests/bake/radiance/uniform_views.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel {

@@ -94,7 +94,7 @@ TEST_F(Options, ValuesAreListedWithTheirSource) {
   EXPECT_NE(list.find("--texel 0.2m preset\n"), std::string::npos) << list;
   EXPECT_NE(list.find("--error 5% command line\n"), std::string::npos) << list;
   EXPECT_NE(list.find("--hidden-black on preset\n"), std::string::npos) << list;
-  EXPECT_NE(list.find("--views planned:8 default\n"), std::string::npos) << list;
+  EXPECT_NE(list.find("--views 8 default\n"), std::string::npos) << list;
   std::ofstream(folder_ / "draft") << "--texel 20cm\n--eror 10%\n";
   EXPECT_NE(run("oriel-bake a.glb -o b --preset draft").find("draft:2: found '--eror 10%'"), std::string::npos);
   EXPECT_EQ(code_, 1);
@@ -132,7 +132,7 @@ TEST_F(Options, TheRecordHoldsEveryOption) {
   const auto record = Json::parse(options_json(command_line_defaults(), 7)).value();
   EXPECT_EQ(record["seed"], 7);
   EXPECT_EQ(record["texel_m"], "auto");
-  EXPECT_EQ(record["views"], "planned");
+  EXPECT_EQ(record["views_per_element"], 8);
   EXPECT_EQ(record["map_memory"], 128 << 20);
   BakeOptions options = command_line_defaults();
   for (const Option& option : bake_options(options)) {

@@ -44,6 +44,11 @@ void expect_readable(const char* name, const Pack& expected) {
   const auto pack = decode_pack(*file);
   ASSERT_TRUE(pack) << pack.error().text();
   EXPECT_TRUE(validate(*pack).empty());
+  ASSERT_EQ(pack->fresnel_maps.size(), expected.fresnel_maps.size());
+  for (std::size_t i = 0; i < expected.fresnel_maps.size(); ++i) {
+    EXPECT_EQ(pack->fresnel_maps[i].table, expected.fresnel_maps[i].table);
+    EXPECT_EQ(pack->fresnel_maps[i].factor, expected.fresnel_maps[i].factor);
+  }
   for (const auto& source : {*pack, expected}) {
     const auto bytes = encode_pack(source);
     ASSERT_TRUE(bytes) << bytes.error().text();
@@ -51,6 +56,7 @@ void expect_readable(const char* name, const Pack& expected) {
     ASSERT_EQ(golden.size(), now.size());
     for (std::size_t i = 0; i < now.size(); ++i) {
       EXPECT_EQ(golden[i].kind, now[i].kind);
+      if (now[i].kind == kFresnelSection) continue;  // they hold an image of R too, which is not written any more
       const auto a = section_bytes(*file, golden[i]), b = section_bytes(*bytes, now[i]);
       ASSERT_TRUE(a && b);
       EXPECT_TRUE(std::ranges::equal(a->span(), b->span())) << now[i].label;

@@ -25,10 +25,7 @@ std::map<std::string, std::string> state_of(const Session& s) {
           {"stage", name_of(kStages, s.frame.show)},
           {"reflections", name_of(kReflections, s.frame.reflections)},
           {"maps", std::to_string(s.frame.maps_per_element)},
-          {"selection", name_of(kSelections, s.frame.selection)},
           {"blur", name_of(kBlurs, s.frame.blur)},
-          {"kernel", name_of(kKernelPlaces, s.frame.kernel)},
-          {"Fresnel", name_of(kReflectances, s.frame.reflectance)},
           {"their light", name_of(kMoverLights, s.frame.mover_lights)},
           {"moves", std::to_string(s.moves.size())},
           {"visible sets", s.frame.visible_sets ? "on" : "off"},
@@ -140,10 +137,7 @@ TEST(Panels, EveryPlaceIsClicked) {
   add("curve", kToneCurves, "aces");
   add("stage", kStages, "all");
   add("reflections", kReflections, "chosen");
-  add("selection", kSelections, "angle");
   add("blur", kBlurs, "distance");
-  add("kernel", kKernelPlaces, "lobe");
-  add("Fresnel", kReflectances, "table");
   add("their light", kMoverLights, "shadowed");
   for (const Camera& camera : pack.cameras)
     expected.insert(fmt::format("eye: {:.2f} {:.2f} {:.2f}", camera.eye.x, camera.eye.y, camera.eye.z));

@@ -15,7 +15,8 @@ constexpr int kLobeOrder = 200;  // the grooves' G has kinks
 // D G / (4 cosθo) of Cook and Torrance 1981, whose D/π has the 1/4 that the 1982 paper lost: there it is 4 times this.
 LobeFunction grooves(double m) {
   return [facets = Microfacet(FacetModel::kBeckmann, m)](const DVec3& wo, const DVec3& wi, const DVec3& h) {
-    return facets.d(h) * v_cavity_g(wo, wi, h) / (4 * wo.z);
+    const double both = 2 * h.z / glm::dot(wo, h);
+    return facets.d(h) * std::clamp(std::min(both * wo.z, both * wi.z), 0.0, 1.0) / (4 * wo.z);
   };
 }
 

@@ -1,9 +1,9 @@
-#include "player/scene/pixel_kernel.h"
+#include "study/bastos1999/pixel_kernel.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 constexpr int kRadius = 5, kMostReduction = 32;
@@ -53,4 +53,4 @@ int choose_reduction(const BrdfKernel& kernel, float pixels_per_tangent) {
   return reduction;
 }
 
-}  // namespace oriel
+}  // namespace oriel::study

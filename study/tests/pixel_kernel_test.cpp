@@ -1,11 +1,11 @@
 // K as one kernel of pixels.
-#include "player/scene/pixel_kernel.h"
+#include "study/bastos1999/pixel_kernel.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 BrdfKernel kernel_of(std::uint32_t size, float half_extent) {
@@ -61,4 +61,4 @@ TEST(PixelKernel, KeepsItsLightAndItsWidth) {
 }
 
 }  // namespace
-}  // namespace oriel
+}  // namespace oriel::study

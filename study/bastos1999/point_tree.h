@@ -6,7 +6,7 @@
 
 #include "formats/assets/radiance_map.h"
 
-namespace oriel {
+namespace oriel::study {
 
 // A square of a map's pixels, cut off at the map's edge, whose points lie in a small range of depths, or that is as
 // small as nodes get. Reflector space.
@@ -54,4 +54,4 @@ Vec2 splat_box(const Vec2& size, const SplatView& view);
 // between its depths.
 bool is_culled(const MapFrame& map, const PointNode& node, const SplatView& view);
 
-}  // namespace oriel
+}  // namespace oriel::study

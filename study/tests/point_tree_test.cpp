@@ -1,11 +1,11 @@
 // Quadtrees of a map's points, and equation (3) of Bastos et al. 1999 for their nodes.
-#include "player/images/point_tree.h"
+#include "study/bastos1999/point_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 // Of the square [-1, 1]² seen from 1 m behind it; height(on_plane): of what a pixel saw over the plane, negative: the
@@ -157,4 +157,4 @@ TEST(PointTree, CullingIsThatOfTheFrustum) {
 }
 
 }  // namespace
-}  // namespace oriel
+}  // namespace oriel::study

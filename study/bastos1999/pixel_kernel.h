@@ -1,11 +1,11 @@
-// K as one kernel of pixels for a whole reflected image, as published (Bastos et al. 1999, section 8.2.1).
+// K as one kernel of pixels for a whole reflected image (Bastos et al. 1999, section 8.2.1).
 #pragma once
 
 #include <vector>
 
 #include "formats/assets/brdf_kernel.h"
 
-namespace oriel {
+namespace oriel::study {
 
 struct PixelKernel {
   int radius = 0;                    // pixels beside the middle one
@@ -21,4 +21,4 @@ PixelKernel make_pixel_kernel(const BrdfKernel& kernel, float pixels_per_tangent
 // middle: a power of two, 1 to 32. pixels_per_tangent: of the frame.
 int choose_reduction(const BrdfKernel& kernel, float pixels_per_tangent);
 
-}  // namespace oriel
+}  // namespace oriel::study

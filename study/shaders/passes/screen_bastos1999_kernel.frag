@@ -1,7 +1,7 @@
-// M * K by one kernel for the whole image, as published (Bastos et al. 1999, section 8.2.1).
+// M * K by one kernel for the whole image, (Bastos et al. 1999, section 8.2.1).
 uniform sampler2D u_image;   // M; a 1 / distance, and black where nothing is known
 uniform ivec2 u_image_size;  // pixels in use
-uniform sampler2D u_kernel;  // see player/scene/pixel_kernel.h
+uniform sampler2D u_kernel;  // see study/bastos1999/pixel_kernel.h
 uniform int u_radius;
 layout(location = 0) out vec4 o_light;
 

@@ -1,11 +1,11 @@
-#include "player/images/point_tree.h"
+#include "study/bastos1999/point_tree.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 constexpr std::uint32_t kLeastSide = 4;  // pixels
@@ -117,4 +117,4 @@ bool is_culled(const MapFrame& map, const PointNode& node, const SplatView& view
   return std::any_of(beyond.begin(), beyond.end(), [](bool all) { return all; });
 }
 
-}  // namespace oriel
+}  // namespace oriel::study

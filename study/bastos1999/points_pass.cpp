@@ -1,13 +1,12 @@
-#include "player/reflections/reproject_pass.h"
+#include "study/bastos1999/points_pass.h"
 
 #include <algorithm>
-#include <map>
 
 #include "player/gpu/buffer.h"
 #include "player/reflections/reflected_view.h"
 #include "player/scene/surface.h"
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 // A node as the shader draws it.
@@ -40,15 +39,25 @@ void set_attribute(GLuint location, int components, std::size_t offset) {
 
 }  // namespace
 
-Result<ReprojectPass> ReprojectPass::create(const gpu::Device& device) {
-  ReprojectPass pass;
-  ORIEL_TRY(pass.program_, gpu::Program::create("reproject", device.dialect));
+gpu::Texture2d upload_points(const RadianceMap& map) {
+  std::vector<Vec4> texels(map.radiance.size());
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const bool usable =
+        map.valid[i] != 0 && is_finite(map.radiance[i]) && map.disparity[i] >= 0 && map.disparity[i] <= 1;
+    texels[i] = usable ? Vec4(map.radiance[i], map.valid[i] == 2 ? 0.0f : map.disparity[i]) : Vec4(0, 0, 0, -1);
+  }
+  return {gpu::kRgba32f, static_cast<int>(map.width), static_cast<int>(map.height), texels.data()};
+}
+
+Result<PointsPass> PointsPass::create(const gpu::Device& device) {
+  PointsPass pass;
+  ORIEL_TRY(pass.program_, gpu::Program::create("bastos1999_points", device.dialect));
   pass.instances_ = gpu::make_vertex_array();
   pass.point_max_ = device.point_size_max;
   return pass;
 }
 
-Status ReprojectPass::draw(const FrameContext& context, const ReflectedImage& image) const {
+void PointsPass::draw(const FrameContext& context, const PointImage& image) {
   const auto& [scene, view, options, stats] = context;
   clear_image(image.target, image.rect);
   const ReflectedView reflected = reflect_view(image.reflector, view, image.rect, scene.bounds());
@@ -64,43 +73,38 @@ Status ReprojectPass::draw(const FrameContext& context, const ReflectedImage& im
   program_.set("u_depth_row", -glm::transpose(reflected.view_from_mirrored)[2]);
   program_.set("u_map", 0);
   glBindVertexArray(instances_.name());
-  for (const ReflectorElement& element : image.reflector.elements) {
+  for (const ReflectorElement& element : image.elements) {
     const Vec2 lower = element.lower, upper = element.upper;
     const std::array<Vec3, 4> corners{Vec3(lower, 0), Vec3(upper.x, lower.y, 0), Vec3(upper, 0),
                                       Vec3(lower.x, upper.y, 0)};
     if (project_polygon(image_from_reflector, corners).empty) continue;
-    const auto maps = weigh_maps(element, scene.pack().radiance_maps, reflected.mirrored_eye, options.maps_per_element,
-                                 options.selection);
-    const std::size_t count = std::min(maps.size(), static_cast<std::size_t>(options.maps_per_element));
+    const auto chosen = weigh_maps(element, image.maps, reflected.mirrored_eye, options.maps_per_element);
+    const std::size_t count = std::min(chosen.size(), static_cast<std::size_t>(options.maps_per_element));
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t map = element.maps[maps[i].map];
-      if (!scene.pack().radiance_maps[map].residual) ORIEL_TRY_VOID(draw_map(context, splats, map));
+      const RadianceMap& map = image.maps[element.maps[chosen[i].map]];
+      const auto [at, is_new] = points_.try_emplace(&map);
+      if (is_new) at->second = {upload_points(map), divide_points(map)};
+      draw_map(map, at->second, splats, stats);
     }
   }
-  return {};
 }
 
-Status ReprojectPass::draw_map(const FrameContext& context, const SplatView& view, std::uint32_t index) const {
-  const auto& [scene, unused, options, stats] = context;
-  const RadianceMap& map = scene.pack().radiance_maps[index];
-  ORIEL_TRY(const MapPoints* const points, scene.map_points(index));
-  if (points == nullptr) return {};
-  points->texels.bind(0);
-  program_.set("u_map_size", IVec2(points->texels.width(), points->texels.height()));
+void PointsPass::draw_map(const RadianceMap& map, const MapPoints& points, const SplatView& view,
+                          FrameStats& stats) const {
+  points.texels.bind(0);
+  program_.set("u_map_size", IVec2(points.texels.width(), points.texels.height()));
   program_.set("u_map_eye", map.eye);
   program_.set("u_lower", map.lower);
   program_.set("u_upper", map.upper);
-  for (const auto& [count, nodes] : place_nodes(points->nodes, map_frame(map), view)) {
+  for (const auto& [count, nodes] : place_nodes(points.nodes, map_frame(map), view)) {
     const gpu::Buffer buffer(GLenum{GL_ARRAY_BUFFER}, std::span<const NodeInstance>(nodes));
     set_attribute(0, 4, offsetof(NodeInstance, node));
     set_attribute(1, 2, offsetof(NodeInstance, step));
     set_attribute(2, 2, offsetof(NodeInstance, box));
     glDrawArraysInstanced(GL_POINTS, 0, count, static_cast<GLsizei>(nodes.size()));
     ++stats.draws;
-    stats.points += static_cast<std::uint64_t>(count) * nodes.size();
   }
   ++stats.maps;
-  return {};
 }
 
-}  // namespace oriel
+}  // namespace oriel::study

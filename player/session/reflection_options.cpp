@@ -1,0 +1,25 @@
+#include "player/session/reflection_options.h"
+
+#include "player/session/option_names.h"
+
+namespace oriel {
+
+std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
+  return {
+      {"--reflections", group,
+       "What reflectors show: as the bake chose, rays marched through their radiance maps, the maps' meshes, the "
+       "mirrored scene drawn again, or nothing. Reflectors without maps always show the mirrored scene",
+       choice(out.frame.reflections, kReflections), Use::kRare, "reflections"},
+      {"--orders", group,
+       "Reflectors on the way of a reflection: 1 shows a mirror in a mirror as its diffuse light only. Without it: 2, "
+       "and on while all on the way are mirrors that leave half of the light",
+       number(out.frame.orders, 1, 16), Use::kRare, "orders"},
+      {"--maps", group,
+       "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 shows none",
+       number(out.frame.maps_per_element, 0, 64), Use::kRare, "maps"},
+      {"--blur", group, "K's width in the image: by the distance of what is reflected, or as sharp as a mirror",
+       choice(out.frame.blur, kBlurs), Use::kRare, "blur"},
+  };
+}
+
+}  // namespace oriel
