@@ -131,7 +131,7 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
 // its own time.
 Result<Component> predict_reflections(const CensusInput& in, Context& context) {
   BakeOptions options = in.options;
-  options.planned.memory_bytes = options.views.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
+  options.planned.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
   Pack dark;
   const BakeTask task{options, in.prepared, in.lights, context, dark};
   ORIEL_TRY(PlannedReflections planned, plan_reflections(task, in.reflections, HUGE_VAL));
