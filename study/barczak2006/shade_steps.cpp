@@ -128,6 +128,7 @@ Result<StepCost> ShadeSteps::draw(const View& view, const FrameOptions& options,
   light_target_.bind();
   glViewport(0, 0, view.width, view.height);
   constexpr GLfloat kNothing[] = {0, 0, 0, 0};
+  gpu::apply({});  // maps are drawn without colour
   glClearBufferfv(GL_COLOR, 0, kNothing);
   const bool by_list = step == ShadeStep::kLists;
   ORIEL_TRY_VOID(by_list ? lists_.set_lists(lists) : boxes_.set_passes(std::move(passes), lights_a_pass));

@@ -73,6 +73,14 @@ TEST_F(ShadeStepsTest, IsTheSameByAllWays) {
   }
 }
 
+TEST_F(ShadeStepsTest, NothingIsLeftOfTheFrameBefore) {
+  draw(ShadeStep::kLists);
+  const FloatImage first = steps_.read();
+  ASSERT_TRUE(steps_.begin(*scene_, options_));  // maps are drawn anew
+  draw(ShadeStep::kLists);
+  EXPECT_EQ(steps_.read().pixels, first.pixels);
+}
+
 // What the frame is darker than one without shade, on the floor.
 TEST_F(ShadeStepsTest, ListsAreWhatThePlayerTakes) {
   draw(ShadeStep::kLists);
