@@ -120,7 +120,8 @@ PlaneRect shadow_rect(const FlatPlane& plane, const BrightLight& light, std::spa
   for (const DVec3& p : corners)
     for (const DVec3& a : apexes)
       if (p.z > 0) extend(rect, seen_at(a, p));
-  if (const PlaneRect through = cut_by(plane, box); !through.empty()) rect = around(rect, through);
+  const PlaneRect through = cut_by(plane, box);  // of a flat box, a line
+  rect = {min(rect.lower, through.lower), max(rect.upper, through.upper)};
   return common(rect, within);
 }
 
