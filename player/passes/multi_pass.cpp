@@ -10,7 +10,7 @@ namespace {
 constexpr GLuint kImageBit = 0x80, kLitBit = 0x40, kCountBits = 0x3f;
 constexpr std::size_t kMostTargets = 8;  // that are kept
 
-std::vector<LightMirror> mirrors_of(GpuScene& scene, const FrameOptions& options) {
+std::vector<LightMirror> mirrors_of(GpuScene& scene) {
   std::vector<LightMirror> mirrors;
   for (const GpuReflector& reflector : scene.reflectors()) {
     const Material& m = scene.pack().materials[reflector.material];
@@ -46,7 +46,7 @@ Status MultiPass::make_programs() {
 Status MultiPass::begin(const FrameContext& context, std::span<const PlacedMover> movers) {
   const MultiPassSettings& how = context.options.multi_pass;
   ORIEL_TRY_VOID(make_programs());
-  mirrors_ = mirrors_of(context.scene, context.options);
+  mirrors_ = mirrors_of(context.scene);
   sources_ = sources_of(context.scene.bright_lights(), how.points, context.options.look);
   paths_ = find_light_paths(sources_, mirrors_, how.mirrors);
   volumes_->begin(context, movers, mirrors_);
