@@ -30,7 +30,7 @@ int run(int argc, char** argv) {
                           .help = "oriel-study: draws and measures a scene as published systems did, to compare with.",
                           .footer = kFooter,
                           .options = {},
-                          .commands = {}}};
+                          .commands = {udeshi1999_command()}}};
   const auto parsed = parse(line, argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const Status done = std::get<const ToolCommand*>(parsed)->run();

@@ -10,5 +10,6 @@ namespace oriel::study {
 std::span<const gpu::ShaderSource> shader_sources();
 
 // A room's command: its options, and what draws or measures with them. arguments outlive it.
+ToolCommand udeshi1999_command();
 
 }  // namespace oriel::study
