@@ -10,7 +10,7 @@
 namespace oriel::study {
 namespace {
 
-constexpr double kElements = 4096;  // about so many of a scene
+constexpr double kElements = 256;  // about so many of a scene
 constexpr std::size_t kElementsATask = 64;
 
 // A side of a piece of a triangle, by its middle.

@@ -74,7 +74,7 @@ void print_stages(const HybridFrame& frame, const HybridArguments& a) {
 }
 
 void print_check(const RayCheck& check) {
-  fmt::print("shadows by rays: {:.1f} ms; of {} pixels {} differ, of {} on silhouettes {}\n", 1000 * check.rays_s,
+  fmt::print("direct light by rays: {:.1f} ms; of {} pixels {} differ, of {} on silhouettes {}\n", 1000 * check.rays_s,
              check.lit + check.dark - check.silhouettes, check.wrong, check.silhouettes, check.wrong_on_silhouettes);
   const auto blocks =
       static_cast<double>(std::max<std::size_t>(check.blocks[0] + check.blocks[1] + check.blocks[2], 1));

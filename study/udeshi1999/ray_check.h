@@ -15,7 +15,7 @@ struct RayCheck {
   // Blocks of 8 × 8 pixels by lamp that all its points shine on wholly, none, or some: lit, umbra and penumbra.
   std::array<std::size_t, 3> blocks{};
   std::vector<float> reached;  // by pixel: the share of points that shine on it, were they alike (the grey shadow)
-  double rays_s = 0;           // that rays to the same points took
+  double rays_s = 0;           // that direct light takes by rays to the same points
 };
 
 // Of what the renderer sees. cap_rays: as HybridOptions. forget_eye: the check's own check, as if no volume held the
