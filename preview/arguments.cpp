@@ -38,7 +38,7 @@ std::vector<Option> output_options(PreviewArguments& a) {
       {"--pack", kFrameGroup, "The pack that \"bake this view\" writes. Default: beside the scene, .oriel",
        path(a.pack, "FILE")},
       {"--stats", kFrameGroup, "A line of JSON on stdout: seconds to the first lit frame, and of each stage of a pass",
-       flag(a.stats), Use::kEveryday},
+       flag(a.stats)},
   };
 }
 
@@ -49,35 +49,11 @@ std::vector<Option> effect_options(PreviewArguments& a) {
        "Points on lamps in each pass, shared by what they give what the eye sees; at least one for each kind of "
        "lamp",
        number(a.frame.samples, 1, 4096), Use::kEveryday},
-      {"--shadows", kEffects,
-       "By shadow volumes in the stencil buffer; by rays, which also see what glass and cut-outs let pass; auto: the "
-       "cheaper of both, as early passes measure; or none",
-       choice(a.frame.shadows, {{"auto", ShadowMethod::kAuto},
-                                {"volumes", ShadowMethod::kVolumes},
-                                {"rays", ShadowMethod::kRays},
-                                {"none", ShadowMethod::kNone}}),
-       Use::kEveryday},
-      {"--shared", kEffects,
-       "Neighbouring pixels share the points on lamps, where rays find shadows: as a window does while one moves",
-       flag(a.frame.shared)},
       {"--elements", kEffects,
        "At most so many elements of surfaces shine back what comes to them, after any number of bounces; each pass "
        "finds others, finer where the eye gets more of them, and takes 36; 0: none",
-       number(a.frame.elements, 0, 65536), Use::kEveryday},
-      {"--cap-rays", kEffects,
-       "Of --shadows volumes: which triangles hold the eye in their shadow, as so many rays from the view plane tell, "
-       "which miss some; 0: exactly",
-       number(a.frame.cap_rays, 0, 65536)},
-      {"--no-classes", kEffects,
-       "Traces every shadow ray. Otherwise one in eight is, where earlier passes saw a lamp wholly or not at all",
-       flag(a.frame.classes, false)},
-      {"--no-direct", kEffects, "Leaves out what lamps throw on surfaces", flag(a.frame.direct, false)},
-      {"--no-bounce", kEffects, "Leaves out what surfaces shine back", flag(a.frame.bounce, false)},
-      {"--no-emission", kEffects, "Leaves out what surfaces emit", flag(a.frame.emission, false)},
-      {"--no-traced", kEffects, "Leaves out reflections and what is behind glass, which rays find",
-       flag(a.frame.traced, false)},
+       number(a.frame.elements, 0, 65536)},
       {"--glossy", kEffects, "Roughness below which reflections are traced", number(a.frame.glossy, 0, 1)},
-      {"--no-antialias", kEffects, "Every pass looks through the pixels' centres", flag(a.frame.antialias, false)},
   };
 }
 
@@ -98,9 +74,6 @@ CommandLine preview_command_line(PreviewArguments& a, std::function<Status()> ru
   command.settle = [&a, baked](const Given& given) -> Status {
     a.bake_options = given.words(baked);
     if (a.pack.empty()) a.pack = std::filesystem::path(a.scene.file).replace_extension(".oriel");
-    if (a.frame.shared && (a.frame.shadows == ShadowMethod::kVolumes || a.frame.shadows == ShadowMethod::kNone))
-      return fail(ErrorCode::kUsage, "--shared",
-                  "found it with --shadows volumes or none, expected rays or auto: rays alone share points");
     if (!a.offscreen) return {};
     const auto ending = a.output.extension();
     if (!a.output.empty() && ending != ".png" && ending != ".exr")

@@ -22,18 +22,9 @@ double seconds_since(Clock::time_point start) {
 }
 
 Json json_of_pass(const PreviewStats& s) {
-  constexpr const char* kMethods[] = {"none", "volumes", "rays", "auto"};
-  return {{"shadows", kMethods[static_cast<int>(s.shadows)]},
-          {"total_s", s.total_s},
-          {"surfaces_s", s.surfaces_s},
-          {"shadows_s", s.shadows_s},
-          {"direct_s", s.direct_s},
-          {"bounce_s", s.bounce_s},
-          {"traced_s", s.traced_s},
-          {"points", s.points},
-          {"shadow_quads", s.shadow_quads},
-          {"shadow_rays", s.shadow_rays},
-          {"traced_pixels", s.traced_pixels}};
+  return {{"total_s", s.total_s},         {"surfaces_s", s.surfaces_s},      {"direct_s", s.direct_s},
+          {"bounce_s", s.bounce_s},       {"traced_s", s.traced_s},          {"points", s.points},
+          {"shadow_rays", s.shadow_rays}, {"traced_pixels", s.traced_pixels}};
 }
 
 // Of what was drawn: the mean over pixels that are numbers, cd/m², and how many are none.
@@ -147,9 +138,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
                        {"loaded_s", loaded_s},
                        {"import_s", scene->import_s},
                        {"rays_s", scene->rays_s},
-                       {"passes_s", scene->passes_s},
                        {"triangles", scene->scene().triangles.size()},
-                       {"edges", scene->shadows->edges()},
                        {"lamps", scene->lamps.count()},
                        {"passes", renderer.passes()},
                        {"paths", a.paths.value_or(0)},

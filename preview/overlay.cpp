@@ -41,11 +41,6 @@ bool draw_panel(const PreviewStatus& s, PreviewOptions& o) {
   ImGui::Begin("Preview", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::Text("%zu triangles, %zu lamps", s.triangles, s.lamps);
   changed |= ImGui::Checkbox("direct light", &o.direct);
-  int shadows = static_cast<int>(o.shadows);
-  if (ImGui::Combo("shadows", &shadows, "none\0volumes\0rays\0the cheaper\0")) {
-    o.shadows = static_cast<ShadowMethod>(shadows);
-    changed = true;
-  }
   int samples = static_cast<int>(o.samples);
   if (ImGui::SliderInt("points on lamps", &samples, 1, 64)) {
     o.samples = static_cast<std::uint32_t>(std::max(samples, 1));
@@ -55,7 +50,6 @@ bool draw_panel(const PreviewStatus& s, PreviewOptions& o) {
   changed |= ImGui::Checkbox("emission", &o.emission);
   changed |= ImGui::Checkbox("traced reflections", &o.traced);
   changed |= ImGui::SliderFloat("up to roughness", &o.glossy, 0, 1);
-  changed |= ImGui::Checkbox("antialias", &o.antialias);
   ImGui::End();
   return changed;
 }

@@ -26,13 +26,14 @@ int run(int argc, char** argv) {
   gpu::add_shader_sources(shader_sources());
   ShownArguments arguments;
   Herf1997Settings herf1997;
-  const CommandLine line{ORIEL_VERSION,
-                         {.name = "oriel-study",
-                          .help = "oriel-study: draws and measures a scene as published systems did, to compare with.",
-                          .footer = kFooter,
-                          .options = {},
-                          .commands = {barczak2006_command(arguments), bastos1999_command(arguments),
-                                       diefenbach1997_command(arguments), herf1997_command(arguments, herf1997)}}};
+  const CommandLine line{
+      ORIEL_VERSION,
+      {.name = "oriel-study",
+       .help = "oriel-study: draws and measures a scene as published systems did, to compare with.",
+       .footer = kFooter,
+       .options = {},
+       .commands = {barczak2006_command(arguments), bastos1999_command(arguments), diefenbach1997_command(arguments),
+                    herf1997_command(arguments, herf1997), udeshi1999_command()}}};
   const auto parsed = parse(line, argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const Status done = std::get<const ToolCommand*>(parsed)->run();

@@ -15,5 +15,6 @@ ToolCommand diefenbach1997_command(ShownArguments& arguments);
 ToolCommand herf1997_command(ShownArguments& arguments, Herf1997Settings& settings);
 ToolCommand barczak2006_command(ShownArguments& arguments);
 ToolCommand bastos1999_command(ShownArguments& arguments);
+ToolCommand udeshi1999_command();
 
 }  // namespace oriel::study

@@ -137,15 +137,13 @@ class Planner {
   }
 
   void no_bake() {
-    for (const std::string& shadows : either({"rays"}, {"rays", "volumes"}))
-      for (const unsigned passes : {1u, 16u}) {
-        Configuration c;
-        c.knob = "no bake";
-        c.setting = fmt::format("{} pass{}, {}", passes, passes == 1 ? "" : "es", shadows);
-        c.published = shadows == "volumes" && passes == 1 ? "hybrid (Udeshi & Hansen 1999)" : "";
-        c.preview = {{"--passes", std::to_string(passes)}, {"--shadows", shadows}};
-        configurations_.push_back(std::move(c));
-      }
+    for (const unsigned passes : {1u, 16u}) {
+      Configuration c;
+      c.knob = "no bake";
+      c.setting = fmt::format("{} pass{}", passes, passes == 1 ? "" : "es");
+      c.preview = {{"--passes", std::to_string(passes)}};
+      configurations_.push_back(std::move(c));
+    }
   }
 
   void paths() {

@@ -1,5 +1,4 @@
-// The light of lamps on what pixels see, by rays: the other way to the same light, and what shadow volumes are checked
-// against.
+// The light of lamps on what pixels see, by rays.
 #pragma once
 
 #include <atomic>

@@ -5,18 +5,14 @@
 
 #include "bake/trace/sampler.h"
 #include "player/gpu/raster_state.h"
-#include "preview/frame/sampled_caps.h"
 
 namespace oriel {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kPixelStream = 0x706978;
-constexpr int kTrials = 2;              // of volumes: the first one has shaders to compile
-constexpr std::uint32_t kAskAgain = 4;  // of so many passes one asks again what rays cost
-constexpr std::uint64_t kCapStream = 0x63617073;
 constexpr std::uint32_t kLampEyes = 48;      // points that the eye sees, by which lamps share points
-constexpr std::size_t kElementsOfPass = 36;  // four for each of 3 x 3 pixels; 64 at most fit the uniforms of a draw
+constexpr std::size_t kElementsOfPass = 36;  // four for each of 3 x 3 pixels
 
 // Adds the time until it ends; waits for the device, whose work comes later otherwise.
 class PassTime {
@@ -45,23 +41,12 @@ void draw_screen(const gpu::VertexArray& no_vertices) {
   glBindVertexArray(0);
 }
 
-std::vector<Vec4> read_texture(const gpu::Texture2d& texture) {
-  std::vector<Vec4> texels(static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(texture.height()));
-  texture.bind(0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
-  return texels;
-}
-
 }  // namespace
 
 Result<PreviewRenderer> PreviewRenderer::create(const gpu::Device& device) {
   PreviewRenderer r;
   r.device_ = device;
   ORIEL_TRY(r.surface_pass_, SurfacePass::create(device.dialect));
-  ORIEL_TRY(r.volume_pass_, VolumePass::create(device.dialect));
-  ORIEL_TRY(r.lamp_pass_, LampPass::create(device.dialect));
-  ORIEL_TRY(r.elements_pass_, gpu::Program::create("screen_preview_elements", device.dialect));
   ORIEL_TRY(r.sum_pass_, gpu::Program::create("screen_preview_sum", device.dialect));
   ORIEL_TRY(r.mean_pass_, gpu::Program::create("screen_preview_mean", device.dialect));
   r.no_vertices_ = gpu::make_vertex_array();
@@ -70,10 +55,8 @@ Result<PreviewRenderer> PreviewRenderer::create(const gpu::Device& device) {
 
 Status PreviewRenderer::take(std::shared_ptr<const PreviewScene> scene) {
   ORIEL_TRY(mesh_, PreviewMesh::create(scene->scene(), scene->parts, device_, mesh_));
-  if (!scene_ || scene_->shadows != scene->shadows) volume_pass_.take(*scene->shadows);
   scene_ = std::move(scene);
   begin_again();
-  costs_ = {};
   return {};
 }
 
@@ -85,13 +68,13 @@ Status PreviewRenderer::look(const Camera& camera, int width, int height) {
   begin_again();
   if (surfaces_ && surfaces_->size() == IVec2(width, height)) return {};
   ORIEL_TRY(surfaces_, make_seen_surfaces(width, height));
-  ORIEL_TRY(light_, make_pass_light(*surfaces_));
-  ORIEL_TRY(sum_, make_pass_light(*surfaces_));
+  light_ = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
+  sum_ = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
+  ORIEL_TRY(sum_framebuffer_, gpu::Framebuffer::create("seen light", &sum_, nullptr));
   ORIEL_TRY(frame_, make_frame_target(width, height, 1, false));
   frame_->framebuffer.bind();
   gpu::apply({});
   glClear(GL_COLOR_BUFFER_BIT);
-  costs_ = {};
   const std::vector<Vec4> black(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   traced_ = gpu::Texture2d(gpu::kRgba32f, width, height, black.data());
   has_traced_ = false;
@@ -113,12 +96,12 @@ Result<PreviewStats> PreviewRenderer::pass(const PreviewOptions& options, Contex
   PreviewStats stats;
   {
     const PassTime total(stats.total_s);
-    read_ = false;
     reflecting_.clear();
     view_ = view_of_pass(options.antialias);
     {
       const PassTime stage(stats.surfaces_s);
       surface_pass_.draw(mesh_, view_, options.glossy, *surfaces_);
+      points_ = read_seen_points(*surfaces_);
     }
     ORIEL_TRY_VOID(light(options, context, stats));
     if (options.traced) {
@@ -133,147 +116,66 @@ Result<PreviewStats> PreviewRenderer::pass(const PreviewOptions& options, Contex
 }
 
 Status PreviewRenderer::light(const PreviewOptions& options, Context& context, PreviewStats& stats) {
-  light_.framebuffer.bind();
-  light_here_.clear();
-  gpu::apply({});
-  glClear(GL_COLOR_BUFFER_BIT);
+  light_here_.assign(points_.place.size(), Vec4(0));
   if (options.direct) {
-    ORIEL_TRY_VOID(share_lamps(context));
-    const auto lamps = scene_->lamps.points(context.seed, passes_, options.samples, lamp_shares_);
-    stats.points = lamps.size();
-    if (!lamps.empty()) ORIEL_TRY_VOID(add_lamps(lamps, options, context, stats));
+    const PassTime stage(stats.direct_s);
+    ORIEL_TRY_VOID(add_lamps(options, context, stats));
   }
   if (options.bounce) {
     const PassTime stage(stats.bounce_s);
     ORIEL_TRY_VOID(reflect(options, context));
   }
+  light_.upload(0, light_here_.data());
   return {};
 }
 
-ShadowMethod PreviewRenderer::method(const PreviewOptions& options) const {
-  if (options.shadows != ShadowMethod::kAuto) return options.shadows;
-  const double rays = costs_.rays[options.shared ? 1 : 0];
-  const bool asks =
-      !options.shared && passes_ % kAskAgain == kAskAgain - 1;  // rays get cheaper with each pass (classes)
-  const bool cheaper = rays > 0 && costs_.trials == kTrials && costs_.volumes < rays;
-  return cheaper && !asks ? ShadowMethod::kVolumes : ShadowMethod::kRays;
-}
-
-Status PreviewRenderer::add_lamps(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
-                                  PreviewStats& stats) {
-  stats.shadows = method(options);
-  if (stats.shadows != ShadowMethod::kRays) {
-    for (const LampPoint& point : lamps) add_lamp(point, stats.shadows == ShadowMethod::kVolumes, options, stats);
-    return {};
-  }
-  double& rays = costs_.rays[options.shared ? 1 : 0];
-  const bool tries = options.shadows == ShadowMethod::kAuto && rays > 0 && costs_.trials < kTrials && lamps.size() > 1;
-  const std::span<const LampPoint> traced = lamps.subspan(tries ? 1 : 0);
-  read_seen();  // reflected light needs it too: no cost of these rays
-  {
-    const PassTime stage(stats.shadows_s);
-    ORIEL_TRY_VOID(add_lamps_by_rays(traced, options, context, stats));
-  }
-  rays = stats.shadows_s / static_cast<double>(traced.size());
-  if (!tries) return {};
-  const double before_s = stats.shadows_s + stats.direct_s;
-  add_lamp(lamps.front(), true, options, stats);
-  const double took_s = stats.shadows_s + stats.direct_s - before_s;
-  costs_.volumes = costs_.trials++ == 0 ? took_s : std::min(costs_.volumes, took_s);
-  return {};
-}
-
-ShadowVolumes PreviewRenderer::volumes_of(const LampPoint& point, std::uint32_t cap_rays) const {
-  if (cap_rays == 0) return scene_->shadows->volumes(point.place, view_.eye);
-  Sampler sampler(1, kCapStream, passes_);
-  return scene_->shadows->volumes(point.place, view_.eye,
-                                  sampled_occluders(*scene_->accel, view_, point.place, cap_rays, sampler));
-}
-
-void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, const PreviewOptions& options,
-                               PreviewStats& stats) {
-  light_.framebuffer.bind();
-  light_here_.clear();
-  if (volumes) {
-    const PassTime stage(stats.shadows_s);
-    const ShadowVolumes shadow = volumes_of(point, options.cap_rays);
-    stats.shadow_quads += shadow.indices.size() / 6;
-    volume_pass_.draw(shadow, point.place, view_);
-  }
-  const PassTime stage(stats.direct_s);
-  lamp_pass_.draw(point, mesh_, *surfaces_, volumes);
-}
-
-// All of the light so far is theirs.
-Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options,
-                                          Context& context, PreviewStats& stats) {
-  read_seen();
+Status PreviewRenderer::add_lamps(const PreviewOptions& options, Context& context, PreviewStats& stats) {
+  ORIEL_TRY_VOID(share_lamps(context));
+  const auto lamps = scene_->lamps.points(context.seed, passes_, options.samples, lamp_shares_);
+  stats.points = lamps.size();
+  if (lamps.empty()) return {};
   std::atomic<std::size_t> rays{0};
   SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_, nullptr, &rays};
-  if (!options.shared && options.classes) {
+  if (!options.shared) {
     if (!classes_) classes_.emplace(surfaces_->size());
     classes_->begin(lamps, context.seed, passes_);
     shared.classes = &*classes_;
   }
   ORIEL_TRY(light_here_, lamps_by_rays(points_, lamps, *scene_->accel, shared, context));
   stats.shadow_rays = rays;
-  light_.light.upload(0, light_here_.data());
   return {};
 }
 
 // Once for each view, so that points of its passes are stratified.
 Status PreviewRenderer::share_lamps(Context& context) {
   if (passes_ > 0) return {};
-  read_seen();
   const auto eye = eye_points(points_, scene_->scene(), kLampEyes, context.seed, 0);
   ORIEL_TRY(lamp_shares_, scene_->lamps.by_eye(eye, *scene_->accel, context));
   return {};
 }
 
-void PreviewRenderer::read_seen() {
-  if (!std::exchange(read_, true)) points_ = read_points();
-}
-
-std::vector<Vec4>& PreviewRenderer::read_light() {
-  if (light_here_.empty()) light_here_ = read_texture(light_.light);
-  return light_here_;
-}
-
-// What surfaces shine back; without shadows where those are switched off.
+// What surfaces shine back. Neighbours share it: it shines smoothly.
 Status PreviewRenderer::reflect(const PreviewOptions& options, Context& context) {
-  read_seen();
   ORIEL_TRY(reflecting_, reflecting_points(*scene_, points_, {options.elements, kElementsOfPass}, passes_, context));
   if (reflecting_.empty()) return {};
-  if (options.shadows != ShadowMethod::kNone) return add_shadowed_elements(context);
-  light_.framebuffer.bind();
-  light_here_.clear();
-  add_elements();
-  return {};
-}
-
-// Neighbours share them: they shine smoothly.
-Status PreviewRenderer::add_shadowed_elements(Context& context) {
   ORIEL_TRY(auto reflected,
             lamps_by_rays(points_, reflecting_, *scene_->accel, {sharing_side(reflecting_.size()), passes_}, context));
   const Neighbours neighbours(points_);
   for (std::size_t step = 3, i = 0; i < smoothing_rounds(passes_); ++i, step *= 2) {
     ORIEL_TRY(reflected, neighbours.smoothed(reflected, step, context));
   }
-  std::vector<Vec4>& light = read_light();
-  for (std::size_t i = 0; i < light.size(); ++i) light[i] += reflected[i];
-  light_.light.upload(0, light.data());
+  for (std::size_t i = 0; i < light_here_.size(); ++i) light_here_[i] += reflected[i];
   return {};
 }
 
 Status PreviewRenderer::trace(Context& context, PreviewStats& stats) {
-  read_seen();
   const auto tagged = [](const Vec4& normal) { return normal.w > 0.5f; };
   if (std::none_of(points_.normal.begin(), points_.normal.end(), tagged)) {
     const std::vector<Vec4> black(has_traced_ ? points_.normal.size() : 0);
     if (std::exchange(has_traced_, false)) traced_.upload(0, black.data());
     return {};
   }
-  const TracedFrame frame{points_, view_.clip_from_pack, view_.eye, read_light(), reflecting_};
+  const TracedFrame frame{points_, view_.clip_from_pack, view_.eye, light_here_, reflecting_};
   ORIEL_TRY(const TracedLight traced, trace_specular(*scene_, frame, passes_, context));
   traced_.upload(0, traced.light.data());
   has_traced_ = true;
@@ -281,39 +183,15 @@ Status PreviewRenderer::trace(Context& context, PreviewStats& stats) {
   return {};
 }
 
-void PreviewRenderer::add_elements() const {
-  gpu::apply({.blend = gpu::Blend::kAdd});
-  elements_pass_.use();
-  surfaces_->place.bind(0);
-  surfaces_->normal.bind(1);
-  surfaces_->face.bind(2);
-  elements_pass_.set("u_place", 0);
-  elements_pass_.set("u_normal", 1);
-  elements_pass_.set("u_face", 2);
-  std::vector<Vec4> places;
-  std::vector<Vec3> fronts, powers;
-  for (const LampPoint& element : reflecting_) {
-    places.emplace_back(Vec3(element.place), element.soft);
-    fronts.push_back(element.normal);
-    powers.push_back(element.power);
-  }
-  elements_pass_.set("u_count", static_cast<int>(places.size()));
-  elements_pass_.set("u_elements", std::span<const Vec4>(places));
-  elements_pass_.set("u_fronts", std::span<const Vec3>(fronts));
-  elements_pass_.set("u_powers", std::span<const Vec3>(powers));
-  draw_screen(no_vertices_);
-}
-
 void PreviewRenderer::add_pass(const PreviewOptions& options) const {
-  sum_.framebuffer.bind();
+  sum_framebuffer_.bind();
   if (passes_ == 0) {
     gpu::apply({});
     glClear(GL_COLOR_BUFFER_BIT);
   }
   gpu::apply({.blend = gpu::Blend::kAdd});
   sum_pass_.use();
-  const gpu::Texture2d* textures[] = {&surfaces_->place, &surfaces_->diffuse, &surfaces_->emission, &light_.light,
-                                      &traced_};
+  const gpu::Texture2d* textures[] = {&surfaces_->place, &surfaces_->diffuse, &surfaces_->emission, &light_, &traced_};
   const char* names[] = {"u_place", "u_diffuse", "u_emission", "u_light", "u_traced"};
   for (int i = 0; i < 5; ++i) {
     textures[i]->bind(i);
@@ -340,7 +218,7 @@ Result<const FrameTarget*> PreviewRenderer::frame(const FloatImage* paths) {
   glViewport(0, 0, frame_->size().x, frame_->size().y);
   gpu::apply({});
   mean_pass_.use();
-  sum_.light.bind(0);
+  sum_.bind(0);
   paths_.bind(1);
   mean_pass_.set("u_sum", 0);
   mean_pass_.set("u_paths", 1);
@@ -352,7 +230,7 @@ Result<const FrameTarget*> PreviewRenderer::frame(const FloatImage* paths) {
 }
 
 FloatImage PreviewRenderer::read_mean() {
-  const std::vector<Vec4> sum = read_texture(sum_.light);
+  const std::vector<Vec4> sum = read_texture(sum_);
   const auto size = UVec2(surfaces_->size());
   FloatImage out{size.x, size.y, 3, {}};
   out.pixels.reserve(3 * sum.size());
@@ -361,21 +239,6 @@ FloatImage PreviewRenderer::read_mean() {
     for (std::uint32_t x = 0; x < size.x; ++x)
       for (int c = 0; c < 3; ++c) out.pixels.push_back(share * sum[std::size_t{y} * size.x + x][c]);
   return out;
-}
-
-SeenPoints PreviewRenderer::read_points() const {
-  return {surfaces_->size().x, surfaces_->size().y, read_texture(surfaces_->place), read_texture(surfaces_->face),
-          read_texture(surfaces_->normal)};
-}
-
-std::vector<std::uint8_t> PreviewRenderer::read_in_shadow(const LampPoint& point, std::uint32_t cap_rays) const {
-  light_.framebuffer.bind();
-  volume_pass_.draw(volumes_of(point, cap_rays), point.place, view_);
-  const IVec2 size = surfaces_->size();
-  std::vector<std::uint8_t> counts(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size.x, size.y, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, counts.data());
-  return counts;
 }
 
 }  // namespace oriel

@@ -1,10 +1,8 @@
 #include "preview/frame/preview_scene.h"
 
 #include <chrono>
-#include <thread>
 
 #include "bake/jobs/parallel.h"
-#include "bake/scene/shade.h"
 
 namespace oriel {
 namespace {
@@ -27,13 +25,6 @@ Status make_rays(PreviewScene& scene, const PreviewScene* same, Context& context
   return {};
 }
 
-// Surfaces that let light through throw no shadow.
-ShadowMesh shadows_of(const Scene& scene) {
-  std::vector<char> throws(scene.triangles.size());
-  for (std::uint32_t t = 0; t < throws.size(); ++t) throws[t] = may_transmit(scene.material_of(t)) ? 0 : 1;
-  return {scene.positions, scene.triangles, throws};
-}
-
 }  // namespace
 
 void find_lamps(PreviewScene& scene) {
@@ -49,18 +40,10 @@ Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene 
   const Scene& scene = out->scene();
   out->parts = parts_of(scene);
   const PreviewScene* same = last != nullptr && last->parts.shape == out->parts.shape ? last : nullptr;
-  // What passes need is made beside what rays need.
-  std::jthread passes([&] {
-    const Clock::time_point begun = Clock::now();
-    out->lamps = Lamps(scene);
-    out->shadows = same != nullptr ? same->shadows : std::make_shared<const ShadowMesh>(shadows_of(scene));
-    out->passes_s = seconds_since(begun);
-  });
   const Clock::time_point begun = Clock::now();
-  const Status rays = make_rays(*out, same, context);
+  ORIEL_TRY_VOID(make_rays(*out, same, context));
+  out->lamps = Lamps(scene);
   out->rays_s = seconds_since(begun);
-  passes.join();
-  if (!rays) return tl::unexpected<Error>(rays.error());
   if (context.stopped()) return fail(ErrorCode::kStopped, "", "stopped");
   return std::shared_ptr<const PreviewScene>(std::move(out));
 }

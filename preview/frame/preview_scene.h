@@ -1,4 +1,4 @@
-// A scene file as the preview needs it: for rays and for passes.
+// A scene file as the preview needs it.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,6 @@
 #include "bake/import/import.h"
 #include "bake/trace/emission.h"
 #include "bake/trace/path.h"
-#include "formats/shadow/shadow_mesh.h"
 #include "preview/frame/lamps.h"
 #include "preview/frame/scene_parts.h"
 
@@ -22,8 +21,7 @@ struct PreviewScene {
   std::optional<LightSet> lights;
   std::optional<Sources> sources;
   Lamps lamps;
-  std::shared_ptr<const ShadowMesh> shadows;
-  double import_s = 0, rays_s = 0, passes_s = 0;  // that each part of loading took
+  double import_s = 0, rays_s = 0;  // that each part of loading took
 
   const Scene& scene() const { return imported.scene; }
   Transport transport() const { return {*accel, *lights, {}}; }
@@ -37,8 +35,8 @@ struct PreviewSceneOptions {
 // Of a scene whose lamps or materials are new: what shines.
 void find_lamps(PreviewScene& scene);
 
-// The rest of a scene that is read. last: the one before, whose rays and shadow volumes are taken where its shape is
-// the same; null: none. Errors: as Accel::build(), kStopped.
+// The rest of a scene that is read. last: the one before, whose rays are taken where its shape is the same; null: none.
+// Errors: as Accel::build(), kStopped.
 Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, Context& context,
                                                                   const PreviewScene* last = nullptr);
 

@@ -37,7 +37,7 @@ LightEdit edit_of(const Light& light);
 // All of it: what undoes edits.
 SceneEdits edits_of(const Scene& scene);
 
-// Sets them, and the lamps that follow from them. Rays, shadow volumes and all geometry stay. Nobody else may read the
+// Sets them, and the lamps that follow from them. Rays and all geometry stay. Nobody else may read the
 // scene meanwhile.
 void edit_scene(PreviewScene& scene, const SceneEdits& edits);
 

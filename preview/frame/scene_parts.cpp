@@ -18,14 +18,12 @@ SceneParts parts_of(const Scene& scene) {
   if (!scene.lights.empty()) frosted = PlanarMirrors::frosted_panes(scene).triangles_of(scene);
   parts.shape = hash_of(scene.lower, scene.upper, scene.positions, scene.triangles, scene.twin, surfaces, frosted);
   parts.vertices = hash_of(parts.shape, scene.normals, scene.uv0, scene.uv1, scene.colors, scene.tangents);
-  Hasher images, lighting;
-  Archive to_images(images), to_lighting(lighting);
+  Hasher images, sky;
+  Archive to_images(images), to_sky(sky);
   for (const Image& image : scene.images) to_images(image.width, image.height, image.texels);
-  to_lighting(scene.sky_image.width, scene.sky_image.height, scene.sky_image.texels);
-  for (const Light& light : scene.lights) to_lighting(light.profile);
-  for (const LightProfile& p : scene.profiles) to_lighting(p.vertical_deg, p.horizontal_deg, p.candela);
+  to_sky(scene.sky_image.width, scene.sky_image.height, scene.sky_image.texels);
   parts.images = images.result();
-  parts.lighting = lighting.result();
+  parts.sky = sky.result();
   return parts;
 }
 

@@ -8,10 +8,10 @@ namespace oriel {
 
 // Hashes of what a scene is made of. Where one is as before, what was made from it is kept.
 struct SceneParts {
-  Hash128 shape;     // triangles, and which of them let light pass: rays, shadow volumes
+  Hash128 shape;     // triangles, and which of them let light pass: rays
   Hash128 vertices;  // those, and what vertices bear: the device's buffers
   Hash128 images;    // textures
-  Hash128 lighting;  // the sky's image and measured lamps: their textures
+  Hash128 sky;       // its image: a texture
 };
 SceneParts parts_of(const Scene& scene);
 

@@ -4,7 +4,6 @@
 
 #include "bake/scene/shade.h"
 #include "bake/trace/albedo.h"
-#include "bake/trace/punctual.h"
 #include "player/gpu/raster_state.h"
 
 namespace oriel {
@@ -13,7 +12,6 @@ namespace {
 constexpr int kFaceColumns = 4096;  // as shaders/passes/preview_surface.frag
 constexpr int kCosines = 64;
 constexpr int kRoughnesses = 9;  // rows of a material whose roughness is a texture
-constexpr int kProfileWidth = 361, kProfileHeight = 181;
 enum Unit { kBase, kRough, kEmission, kNormal, kFaces, kLeft };
 
 GLenum wrap_of(Wrap wrap) {
@@ -53,6 +51,19 @@ Result<SeenSurfaces> make_seen_surfaces(int width, int height) {
   return s;
 }
 
+std::vector<Vec4> read_texture(const gpu::Texture2d& texture) {
+  std::vector<Vec4> texels(static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(texture.height()));
+  texture.bind(0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
+  return texels;
+}
+
+SeenPoints read_seen_points(const SeenSurfaces& surfaces) {
+  return {surfaces.size().x, surfaces.size().y, read_texture(surfaces.place), read_texture(surfaces.face),
+          read_texture(surfaces.normal)};
+}
+
 Result<PreviewMesh> PreviewMesh::create(const Scene& scene, const SceneParts& parts, const gpu::Device& device,
                                         const PreviewMesh& last) {
   PreviewMesh mesh;
@@ -67,7 +78,7 @@ Result<PreviewMesh> PreviewMesh::create(const Scene& scene, const SceneParts& pa
   }
   if (last.parts_.images == parts.images) mesh.textures_ = last.textures_;
   ORIEL_TRY_VOID(mesh.upload_textures(scene, device));
-  mesh.lighting_ = last.parts_.lighting == parts.lighting ? last.lighting_ : upload_lighting(scene);
+  mesh.sky_ = last.parts_.sky == parts.sky ? last.sky_ : upload_sky(scene);
   mesh.upload_reflectances(scene);
   ORIEL_TRY_VOID(gpu::check_gl("loading the scene"));
   return mesh;
@@ -147,32 +158,14 @@ void PreviewMesh::take_materials() {
   upload_reflectances(*scene_);
 }
 
-auto PreviewMesh::upload_lighting(const Scene& scene) -> std::shared_ptr<const Lighting> {
-  auto lighting = std::make_shared<Lighting>();
+std::shared_ptr<const gpu::Texture2d> PreviewMesh::upload_sky(const Scene& scene) {
   const SkyImage& sky = scene.sky_image;
-  if (!sky.texels.empty()) {
-    std::vector<Vec4> texels;
-    for (const Vec3& t : sky.texels) texels.emplace_back(t, 1);
-    lighting->sky =
-        gpu::Texture2d(gpu::kRgba32f, static_cast<int>(sky.width), static_cast<int>(sky.height), texels.data(),
-                       {.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR, .wrap_s = GL_REPEAT});
-  }
-  for (const Light& light : scene.lights) {
-    lighting->profiles.emplace_back();
-    if (light.profile < 0) continue;
-    std::vector<float> candela;
-    for (int v = 0; v < kProfileHeight; ++v)
-      for (int h = 0; h < kProfileWidth; ++h)
-        candela.push_back(profile_candela(scene.profiles[static_cast<std::size_t>(light.profile)],
-                                          static_cast<float>(v), static_cast<float>(h)));
-    lighting->profiles.back() = gpu::Texture2d(gpu::kR32f, kProfileWidth, kProfileHeight, candela.data(),
-                                               {.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR});
-  }
-  return lighting;
-}
-
-const gpu::Texture2d& PreviewMesh::profile(std::uint32_t light) const {
-  return light < lighting_->profiles.size() ? lighting_->profiles[light] : no_profile_;
+  if (sky.texels.empty()) return std::make_shared<const gpu::Texture2d>();
+  std::vector<Vec4> texels;
+  for (const Vec3& t : sky.texels) texels.emplace_back(t, 1);
+  return std::make_shared<const gpu::Texture2d>(
+      gpu::kRgba32f, static_cast<int>(sky.width), static_cast<int>(sky.height), texels.data(),
+      gpu::TextureOptions{.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR, .wrap_s = GL_REPEAT});
 }
 
 void PreviewMesh::set_slot(const gpu::Program& program, const TextureSlot& slot, bool srgb, const char* name,
@@ -233,11 +226,10 @@ Result<SurfacePass> SurfacePass::create(gpu::Dialect dialect) {
 void SurfacePass::draw(const PreviewMesh& mesh, const View& view, float glossy, const SeenSurfaces& to) const {
   to.framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
-  gpu::apply({.depth_test = true, .depth_write = true, .stencil_write = 0xff});
+  gpu::apply({.depth_test = true, .depth_write = true});
   glClearColor(0, 0, 0, 0);
   glClearDepth(1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-  gpu::apply({.depth_test = true, .depth_write = true});
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   program_.use();
   program_.set("u_clip_from_pack", view.clip_from_pack);
   program_.set("u_eye", view.eye);

@@ -10,6 +10,7 @@
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/program.h"
 #include "player/navigation/view.h"
+#include "preview/frame/neighbours.h"
 #include "preview/frame/scene_parts.h"
 
 namespace oriel {
@@ -21,6 +22,9 @@ struct SeenSurfaces {
   IVec2 size() const { return {place.width(), place.height()}; }
 };
 Result<SeenSurfaces> make_seen_surfaces(int width, int height);
+// A texture's texels, and what pixels see, row 0 at the bottom.
+std::vector<Vec4> read_texture(const gpu::Texture2d& texture);
+SeenPoints read_seen_points(const SeenSurfaces& surfaces);
 
 // A scene's triangles, textures and reflectances on the device.
 class PreviewMesh {
@@ -35,9 +39,7 @@ class PreviewMesh {
   const Scene& scene() const { return *scene_; }
   // Draws all of it; the program of SurfacePass is in use.
   void draw(const gpu::Program& program) const;
-  const gpu::Texture2d& sky() const { return lighting_->sky; }  // an image, or none
-  // Candela of Scene::lights[light]'s profile; one without is empty.
-  const gpu::Texture2d& profile(std::uint32_t light) const;
+  const gpu::Texture2d& sky() const { return *sky_; }  // an image, or none
 
  private:
   // What is shared among meshes whose parts are the same.
@@ -47,14 +49,10 @@ class PreviewMesh {
     gpu::Buffer indices;
     gpu::Texture2d faces;
   };
-  struct Lighting {
-    gpu::Texture2d sky;
-    std::vector<gpu::Texture2d> profiles;  // by light
-  };
   static Result<std::shared_ptr<const Vertices>> upload_vertices(const Scene& scene, const gpu::Device& device);
   Status upload_textures(const Scene& scene, const gpu::Device& device);
   void upload_reflectances(const Scene& scene);
-  static std::shared_ptr<const Lighting> upload_lighting(const Scene& scene);
+  static std::shared_ptr<const gpu::Texture2d> upload_sky(const Scene& scene);
   void set_slot(const gpu::Program& program, const TextureSlot& slot, bool srgb, const char* name, int unit) const;
   void set_material(const gpu::Program& program, std::uint32_t material) const;
 
@@ -63,10 +61,9 @@ class PreviewMesh {
   SceneParts parts_;
   std::shared_ptr<const Vertices> vertices_;
   std::map<TextureKey, std::shared_ptr<const gpu::Texture2d>> textures_;
-  std::shared_ptr<const Lighting> lighting_;
+  std::shared_ptr<const gpu::Texture2d> sky_;
   gpu::Texture2d white_, left_;
   std::vector<Vec2> left_rows_;  // by material
-  gpu::Texture2d no_profile_;
 };
 
 class SurfacePass {

@@ -182,7 +182,6 @@ TEST_F(Live, AnEditedFileIsSeenWithWhatStaysOfTheLast) {
     options.file = folder_.write("b.gltf", changed.text());
     const auto scene = *load_preview_scene(options, context_, first.get()),
                alone = *load_preview_scene(options, context_);
-    EXPECT_EQ(scene->shadows == first->shadows, e.shape) << e.what;
     EXPECT_EQ(scene->parts.shape == first->parts.shape, e.shape) << e.what;
     EXPECT_EQ(scene->parts.vertices == first->parts.vertices, e.vertices) << e.what;
     EXPECT_EQ(scene->parts.images == first->parts.images, e.images) << e.what;

@@ -1,6 +1,5 @@
-// Interaction of oriel-preview in the three scenes of Udeshi & Hansen 1999, with their numbers of points on lamps, on
-// one core and on two: frames a second at 640x480 while the eye moves, and the share of each stage beside their
-// table 2. preview_bench [FRAMES [SCENE]]
+// Interaction of oriel-preview in three scenes, with many points on lamps, on one core and on two: frames a second at
+// 640x480 while the eye moves, and the share of each stage. preview_bench [FRAMES [SCENE]]
 #include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,21 +26,16 @@ struct Class {
   const char* name;
   sample::SampleScene (*make)();
   std::uint32_t samples;
-  const char* paper;  // their shares of shadows, most pipes to fewest, and frames a second with eight pipes
 };
-constexpr Class kClasses[] = {
-    {"office", sample::make_office, 18, "28-65 %, bounce 20-28, direct 6-11, specular 3-4; 4.8 frames/s"},
-    {"classroom", sample::make_classroom, 36, "61-80 %, bounce 6-11, direct 3-4, specular 2-4; 4.0 frames/s"},
-    {"glass-sphere", sample::make_glass_sphere, 25, "15-73 %, bounce 17-32, direct 3-5, specular 6-7; 7.6 frames/s"}};
+constexpr Class kClasses[] = {{"office", sample::make_office, 18},
+                              {"classroom", sample::make_classroom, 36},
+                              {"glass-sphere", sample::make_glass_sphere, 25}};
 
 struct Way {
   const char* name;
-  ShadowMethod shadows;
   bool shared;
 };
-constexpr Way kWays[] = {{"shared rays", ShadowMethod::kRays, true},
-                         {"rays", ShadowMethod::kRays, false},
-                         {"volumes", ShadowMethod::kVolumes, false}};
+constexpr Way kWays[] = {{"shared rays", true}, {"rays", false}};
 
 template <typename T>
 T must(Result<T> result) {
@@ -51,16 +45,16 @@ T must(Result<T> result) {
 }
 
 void add(PreviewStats& sum, const PreviewStats& s) {
-  sum.surfaces_s += s.surfaces_s, sum.shadows_s += s.shadows_s, sum.direct_s += s.direct_s;
+  sum.surfaces_s += s.surfaces_s, sum.direct_s += s.direct_s;
   sum.bounce_s += s.bounce_s, sum.traced_s += s.traced_s, sum.total_s += s.total_s;
-  sum.shadow_quads += s.shadow_quads, sum.traced_pixels += s.traced_pixels;
+  sum.traced_pixels += s.traced_pixels;
 }
 
 // The eye turns by half a degree a frame, as a walker's does.
 void walk(PreviewRenderer& renderer, DisplayPass& display, const Camera& camera, const Class& c, const Way& way,
           int frames) {
   Context context;
-  const PreviewOptions options{.shadows = way.shadows, .samples = c.samples, .shared = way.shared};
+  const PreviewOptions options{.samples = c.samples, .shared = way.shared};
   const gpu::Texture2d shown(gpu::kRgba8, kWidth, kHeight, nullptr);
   const gpu::Framebuffer target = must(gpu::Framebuffer::create("shown", &shown, nullptr));
   PreviewStats sum;
@@ -86,13 +80,12 @@ void walk(PreviewRenderer& renderer, DisplayPass& display, const Camera& camera,
   }
   const auto share = [&](double s) { return 100 * s / seconds; };
   std::printf(
-      "  %-12s %5.2f frames/s, %4.0f ms of CPU each  shadows and direct %2.0f %%  bounce %2.0f  traced %2.0f  surfaces "
+      "  %-12s %5.2f frames/s, %4.0f ms of CPU each  direct %2.0f %%  bounce %2.0f  traced %2.0f  surfaces "
       "%2.0f  rest %2.0f  "
-      "(%zu quads, %zu traced pixels a frame)\n",
-      way.name, frames / seconds, 1000 * cpu_s / frames, share(sum.shadows_s + sum.direct_s), share(sum.bounce_s),
-      share(sum.traced_s), share(sum.surfaces_s),
-      share(seconds - sum.shadows_s - sum.direct_s - sum.bounce_s - sum.traced_s - sum.surfaces_s),
-      sum.shadow_quads / static_cast<std::size_t>(frames), sum.traced_pixels / static_cast<std::size_t>(frames));
+      "(%zu traced pixels a frame)\n",
+      way.name, frames / seconds, 1000 * cpu_s / frames, share(sum.direct_s), share(sum.bounce_s), share(sum.traced_s),
+      share(sum.surfaces_s), share(seconds - sum.direct_s - sum.bounce_s - sum.traced_s - sum.surfaces_s),
+      sum.traced_pixels / static_cast<std::size_t>(frames));
   std::fflush(stdout);
 }
 
@@ -108,10 +101,7 @@ void measure(const Class& c, int frames) {
   std::filesystem::remove(file);
   if (const Status taken = renderer.take(scene); !taken) std::exit(4);
   for (const Way& way : kWays)
-    walk(renderer, display, scene->scene().cameras.front(), c, way,
-         way.shared                           ? frames
-         : way.shadows == ShadowMethod::kRays ? (frames + 2) / 3
-                                              : 1);
+    walk(renderer, display, scene->scene().cameras.front(), c, way, way.shared ? frames : (frames + 2) / 3);
 }
 
 // In a process of its own: how many cores the driver takes is settled once.
@@ -141,7 +131,6 @@ int main(int argc, char** argv) {
   const int frames = std::max(1, argc > 1 ? std::atoi(argv[1]) : 12);
   for (const oriel::Class& c : oriel::kClasses) {
     if (argc > 2 && std::string(argv[2]) != c.name) continue;
-    std::printf("paper's %s: shadows %s\n", c.name, c.paper);
     for (const int cores : {1, 2}) oriel::measure_on(cores, c, frames);
   }
 }

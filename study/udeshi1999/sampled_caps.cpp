@@ -1,8 +1,8 @@
-#include "preview/frame/sampled_caps.h"
+#include "study/udeshi1999/sampled_caps.h"
 
 #include <algorithm>
 
-namespace oriel {
+namespace oriel::study {
 namespace {
 
 constexpr int kMostLayers = 4096;  // that a ray is followed through
@@ -44,4 +44,4 @@ std::vector<std::uint32_t> sampled_occluders(const Accel& accel, const View& vie
   return found;
 }
 
-}  // namespace oriel
+}  // namespace oriel::study

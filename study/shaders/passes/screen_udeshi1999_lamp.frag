@@ -4,24 +4,14 @@ uniform sampler2D u_place, u_normal, u_face;
 uniform int u_kind;    // 0 flat, 1 punctual, 2 from afar
 uniform vec4 u_light;  // homogeneous
 uniform vec3 u_front;  // of a flat lamp; a spot's direction
-uniform vec3 u_right;  // of a profile, horizontal 0
 uniform vec3 u_power;
 uniform vec2 u_cone;   // cosines of the outer and inner angle; x < -1: none
-uniform sampler2D u_profile;  // candela: horizontal 0 to 360 degrees across, vertical 0 to 180 down
-uniform bool u_profiled;
 layout(location = 0) out vec4 o_light;
 
 // Relative to u_power, in a direction that leaves the lamp.
 float intensity(vec3 direction) {
-  float along = dot(u_front, direction);
-  if (u_profiled) {
-    float x = dot(u_right, direction), y = dot(cross(u_right, u_front), direction);
-    vec2 at = vec2(fract(atan(y, x) / 6.28318531), atan(length(vec2(x, y)), along) / 3.14159265);
-    vec2 size = vec2(textureSize(u_profile, 0));
-    return texture(u_profile, (at * (size - 1.0) + 0.5) / size).r;
-  }
   if (u_cone.x < -1.0) return 1.0;
-  float t = clamp((along - u_cone.x) / (u_cone.y - u_cone.x), 0.0, 1.0);
+  float t = clamp((dot(u_front, direction) - u_cone.x) / (u_cone.y - u_cone.x), 0.0, 1.0);
   return t * t;
 }
 

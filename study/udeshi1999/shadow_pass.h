@@ -1,4 +1,5 @@
-// The light of lamps on what pixels see: a pass over the frame for each point of a lamp, and its shadows before.
+// The graphics hardware's part of a frame: shadow volumes counted in the stencil, the light of a point on a lamp where
+// none holds what a pixel sees, and that of elements without shadows.
 #pragma once
 
 #include <span>
@@ -7,14 +8,7 @@
 #include "preview/frame/lamps.h"
 #include "preview/frame/surface_pass.h"
 
-namespace oriel {
-
-// Where passes add up irradiance, lux. The depth and stencil are those of the surfaces that are lit.
-struct PassLight {
-  gpu::Texture2d light;
-  gpu::Framebuffer framebuffer;
-};
-Result<PassLight> make_pass_light(const SeenSurfaces& surfaces);
+namespace oriel::study {
 
 // Counts in the stencil, modulo 256, the shadow volumes that hold what a pixel sees.
 class VolumePass {
@@ -30,15 +24,19 @@ class VolumePass {
   std::vector<gpu::Buffer> buffers_;
 };
 
+// Over the whole frame.
 class LampPass {
  public:
   static Result<LampPass> create(gpu::Dialect dialect);
-  // Adds to the bound framebuffer, where the stencil is 0 (stencilled).
-  void draw(const LampPoint& point, const PreviewMesh& mesh, const SeenSurfaces& surfaces, bool stencilled) const;
+  // Adds irradiance, lux, to the bound framebuffer, where the stencil is 0. No measured lamps.
+  void draw(const LampPoint& point, const Scene& scene, const SeenSurfaces& surfaces) const;
+  // Adds what elements reflect. At most 64.
+  void draw_elements(std::span<const LampPoint> elements, const SeenSurfaces& surfaces) const;
+  static constexpr std::size_t kMostElements = 64;
 
  private:
-  gpu::Program program_;
+  gpu::Program lamp_, elements_;
   gpu::VertexArray no_vertices_;
 };
 
-}  // namespace oriel
+}  // namespace oriel::study
