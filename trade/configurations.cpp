@@ -49,12 +49,10 @@ class Planner {
 
   Texts either(Texts few, Texts many) const { return quick_ ? std::move(few) : std::move(many); }
 
-  void add(const std::string& knob, const std::string& setting, const Settings& bake, const Settings& play,
-           const std::string& published = {}) {
+  void add(const std::string& knob, const std::string& setting, const Settings& bake, const Settings& play) {
     Configuration c = default_;
     c.knob = knob;
     c.setting = setting;
-    c.published = published;
     for (const auto& [option, value] : bake) c.bake[option] = value;
     if (c.bake.contains("--samples")) c.bake.erase("--error");
     c.play = play;
@@ -94,7 +92,7 @@ class Planner {
     }
     const Settings maps_baked{{"--reflections", "maps"}};
     add("reflections", "march", maps_baked, {{"--reflections", "march"}});
-    add("reflections", "geometry", {{"--reflections", "geometry"}}, {}, "mirrored geometry (Diefenbach 1997)");
+    add("reflections", "geometry", {{"--reflections", "geometry"}}, {});
     for (const std::string& views : either({"2"}, {"1", "2", "4"})) add("views", views, {{"--views", views}}, {});
     for (const std::string& maps : either({"1"}, {"1", "4", "8"})) add("maps", maps, maps_baked, {{"--maps", maps}});
   }
@@ -129,8 +127,7 @@ class Planner {
     const Settings grouped{{"--light-groups", "each"}}, there{{"--move", move_}};
     add("moved lamp", "baked anew", there, {});
     add("moved lamp", "live", grouped, there);
-    add("moved lamp", "live, by lights", grouped, {{"--move", move_}, {"--live-indirect", "lights"}},
-        "instant radiosity (Keller 1997)");
+    add("moved lamp", "live, by lights", grouped, {{"--move", move_}, {"--live-indirect", "lights"}});
     add("moved lamp", "switched off", grouped, {{"--light", move_.substr(0, move_.find('=')) + "=off"}});
     add("moved lamp", "not followed", {}, {});
     for (std::size_t i = first; i < configurations_.size(); ++i) configurations_[i].moved = true;

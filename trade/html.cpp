@@ -55,10 +55,6 @@ for (const table of document.querySelectorAll('table.sortable')) {
 </script>
 )";
 
-std::string shown_name(const Configuration& c) {
-  return c.published.empty() ? c.name() : c.name() + " – " + c.published;
-}
-
 // One colour a knob, in the order of the rows.
 std::vector<std::string> knobs_of(const Trade& trade) {
   std::vector<std::string> knobs;
@@ -82,8 +78,8 @@ std::string plots_html(const Trade& trade, const std::vector<std::string>& knobs
       if (!cost || !error) continue;
       const auto knob = std::find(knobs.begin(), knobs.end(), row.configuration.knob) - knobs.begin();
       plot.dots.push_back({*cost, 100 * *error, row.configuration.name(),
-                           fmt::format("{}\n{}: {:.3g}\n{}: {:.3g}", shown_name(row.configuration), kind.cost_label,
-                                       *cost, kind.error_label, 100 * *error),
+                           fmt::format("{}\n{}: {:.3g}\n{}: {:.3g}", row.configuration.name(), kind.cost_label, *cost,
+                                       kind.error_label, 100 * *error),
                            static_cast<int>(knob), on_front(row, kind.id)});
     }
     if (!plot.dots.empty()) html += plot_svg(plot);
@@ -100,7 +96,6 @@ std::string row_html(const Row& row) {
   std::string options = options_text(c.bake) + (c.play.empty() ? "" : " | " + options_text(c.play));
   std::string html = fmt::format("<tr{}><td title=\"{}\">{}", c.knob == "default" ? " class=\"default\"" : "",
                                  escaped(options), escaped(c.name()));
-  if (!c.published.empty()) html += fmt::format("<small>{}</small>", escaped(c.published));
   if (!row.failure.empty()) html += fmt::format("<small>failed: {}</small>", escaped(row.failure));
   html += "</td>";
   for (const Quantity& column : quantities()) {
@@ -151,7 +146,7 @@ std::string pictures_html(const Trade& trade) {
     if (html.empty())
       html = fmt::format("<figure><div>{}</div><figcaption>reference: {} paths a pixel</figcaption></figure>\n",
                          image(pictures->reference, "reference"), trade.plan.reference_paths);
-    const std::string name = shown_name(row.configuration);
+    const std::string name = row.configuration.name();
     html += fmt::format("<figure><div>{}{}</div><figcaption>{}: FLIP {:.4f}</figcaption></figure>\n",
                         image(pictures->frame, name), image(pictures->flip, "FLIP of " + name), escaped(name),
                         row.measures.frames[camera].flip);

@@ -28,7 +28,6 @@ Json row_json(const Row& row) {
   const Configuration& c = row.configuration;
   Json json = {{"knob", c.knob},
                {"setting", c.setting},
-               {"published", c.published},
                {"bake_options", options_text(c.bake)},
                {"play_options", options_text(c.play)},
                {"preview_options", options_text(c.preview)},
@@ -54,8 +53,8 @@ std::string quoted(const std::string& text) {
 std::string csv_row(const Row& row) {
   const Configuration& c = row.configuration;
   const Measures& m = row.measures;
-  std::string line = fmt::format("{},{},{},{},{},{}", quoted(c.knob), quoted(c.setting), quoted(c.published),
-                                 quoted(options_text(c.bake)), quoted(options_text(c.play)), c.paths);
+  std::string line = fmt::format("{},{},{},{},{}", quoted(c.knob), quoted(c.setting), quoted(options_text(c.bake)),
+                                 quoted(options_text(c.play)), c.paths);
   for (const Quantity& quantity : quantities()) {
     line += ',';
     const auto value = quantity.value(m);
@@ -103,7 +102,7 @@ std::string trade_json(const Trade& trade) {
 }
 
 std::string trade_csv(const Trade& trade) {
-  std::string text = "knob,setting,published,bake_options,play_options,paths";
+  std::string text = "knob,setting,bake_options,play_options,paths";
   for (const Quantity& quantity : quantities()) text += fmt::format(",{}", quantity.name);
   text += ",fronts,failure\r\n";
   for (const Row& row : trade.rows) text += csv_row(row);

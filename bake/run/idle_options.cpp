@@ -6,24 +6,24 @@ namespace {
 // Null where the option has an effect.
 struct IdleRule {
   const char* option;
-  const char* (*reason)(const BakeOptions&, const SceneFacts&);
+  const char* (*reason)(const BakeOptions&, const IdleFacts&);
 };
 
-const char* no_sky_file(const BakeOptions& o, const SceneFacts&) {
+const char* no_sky_file(const BakeOptions& o, const IdleFacts&) {
   return o.import.sky_file.empty() ? "--sky names no file" : nullptr;
 }
 
-const char* no_movers(const BakeOptions& o, const SceneFacts& facts) {
+const char* no_movers(const BakeOptions& o, const IdleFacts& facts) {
   if (!facts.movers) return "nothing in the scene moves";
   return o.with_transfer ? nullptr : "--only leaves movers out";
 }
 
-const char* no_reflectors(const BakeOptions& o, const SceneFacts& facts) {
+const char* no_reflectors(const BakeOptions& o, const IdleFacts& facts) {
   if (!o.with_radiance) return "--only leaves reflections out";
   return facts.reflectors ? nullptr : "the scene has no reflectors that eyes see";
 }
 
-const char* no_maps(const BakeOptions& o, const SceneFacts& facts) {
+const char* no_maps(const BakeOptions& o, const IdleFacts& facts) {
   if (const char* reason = no_reflectors(o, facts)) return reason;
   return facts.maps ? nullptr : "no reflector has radiance maps (--reflections maps)";
 }
@@ -36,16 +36,16 @@ const IdleRule kRules[] = {
     {"--probe", no_movers},
     {"--reflections", no_reflectors},
     {"--reuse-error",
-     [](const BakeOptions&, const SceneFacts& facts) { return facts.cached ? nullptr : "there is no --cache"; }},
+     [](const BakeOptions&, const IdleFacts& facts) { return facts.cached ? nullptr : "there is no --cache"; }},
     {"--sh-bands", no_movers},
     {"--sky-rotation", no_sky_file},
     {"--sky-scale", no_sky_file},
     {"--sun-angle",
-     [](const BakeOptions&, const SceneFacts& facts) {
+     [](const BakeOptions&, const IdleFacts& facts) {
        return facts.suns ? nullptr : "the scene has no directional lights";
      }},
     {"--target",
-     [](const BakeOptions& o, const SceneFacts& facts) {
+     [](const BakeOptions& o, const IdleFacts& facts) {
        return o.ways == WaysWanted::kAuto ? no_reflectors(o, facts) : "--reflections decides";
      }},
     {"--transfer", no_movers},
@@ -60,7 +60,7 @@ std::vector<std::string> idle_bake_option_names() {
   return names;
 }
 
-std::vector<std::string> idle_options(const BakeOptions& options, const SceneFacts& facts) {
+std::vector<std::string> idle_options(const BakeOptions& options, const IdleFacts& facts) {
   std::vector<std::string> lines;
   for (const std::string& name : options.given)
     for (const IdleRule& rule : kRules)

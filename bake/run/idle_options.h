@@ -9,7 +9,7 @@
 namespace oriel {
 
 // What of a scene decides whether an option has an effect.
-struct SceneFacts {
+struct IdleFacts {
   bool suns = false;        // directional lights
   bool movers = false;      // nodes that move
   bool reflectors = false;  // planar or curved ones that eyes see
@@ -18,7 +18,7 @@ struct SceneFacts {
 };
 
 // A line for each option of options.given that changes nothing, with the reason.
-std::vector<std::string> idle_options(const BakeOptions& options, const SceneFacts& facts);
+std::vector<std::string> idle_options(const BakeOptions& options, const IdleFacts& facts);
 
 // The options that can be idle.
 std::vector<std::string> idle_bake_option_names();

@@ -146,8 +146,8 @@ class Bake {
 
   void tell_idle_options() {
     const auto is_sun = [](const Light& light) { return light.type == LightType::kDirectional; };
-    const SceneFacts facts{std::any_of(scene().lights.begin(), scene().lights.end(), is_sun), !prepared_.movers.empty(),
-                           !planned_.empty(), !planned_.plan.maps.empty(), context_.units != nullptr};
+    const IdleFacts facts{std::any_of(scene().lights.begin(), scene().lights.end(), is_sun), !prepared_.movers.empty(),
+                          !planned_.empty(), !planned_.plan.maps.empty(), context_.units != nullptr};
     for (const std::string& line : idle_options(options_, facts)) context_.warning(line);
   }
 

@@ -83,8 +83,13 @@ const Rule kRules[] = {
      [](const Pack& pack, const PlayArguments&) {
        return pack.lightmaps.empty() ? "the pack has no lightmap" : nullptr;
      }},
-    {"--live", no_moved_lamps},
     {"--live-bounces", no_moved_lamps},
+    {"--live-direct",
+     [](const Pack& pack, const PlayArguments& a) {
+       return a.frame.live.lights.indirect == LiveIndirect::kLights ? no_moved_lamps(pack, a)
+                                                                    : "it is of --live-indirect lights";
+     }},
+    {"--live-indirect", no_moved_lamps},
     {"--live-lights", no_moved_lamps},
     {"--log-frames", no_window},
     {"--maps",

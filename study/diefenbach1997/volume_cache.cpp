@@ -94,7 +94,7 @@ CutTriangles cut_triangles(std::span<const Vec3> positions, std::span<const UVec
 
 Result<VolumeCache> VolumeCache::create(gpu::Dialect dialect) {
   VolumeCache cache;
-  ORIEL_TRY(cache.program_, gpu::Program::create("diefenbach1997_volume", dialect));
+  ORIEL_TRY(cache.program_, gpu::Program::create("shadow_volume", dialect));
   return cache;
 }
 

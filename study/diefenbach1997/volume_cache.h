@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "formats/shadow/shadow_mesh.h"
+#include "study/support/shadow_mesh.h"
 #include "player/gpu/program.h"
 #include "player/movers/mover_pass.h"
 #include "study/diefenbach1997/light_paths.h"

@@ -26,7 +26,7 @@ void draw_over_frame(const gpu::VertexArray& no_vertices) {
 
 Result<VolumePass> VolumePass::create(gpu::Dialect dialect) {
   VolumePass pass;
-  ORIEL_TRY(pass.program_, gpu::Program::create("udeshi1999_volume", dialect));
+  ORIEL_TRY(pass.program_, gpu::Program::create("shadow_volume", dialect));
   return pass;
 }
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "formats/shadow/shadow_mesh.h"
+#include "study/support/shadow_mesh.h"
 #include "preview/frame/lamps.h"
 #include "preview/frame/surface_pass.h"
 

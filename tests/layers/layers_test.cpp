@@ -25,7 +25,6 @@ const Arrows kRestsOn = {
     {"formats/image", {"formats/core"}},
     {"formats/assets", {"formats/core"}},
     {"formats/query", {"formats/assets"}},
-    {"formats/shadow", {"formats/core"}},  // shared by player and preview: no scene, no OpenGL
     {"formats/pack", {"formats/query"}},
     {"formats/analysis", {"formats/pack", "formats/image"}},
     {"formats/export", {"formats/analysis"}},
@@ -57,12 +56,12 @@ const Arrows kRestsOn = {
     {"player/scene", {"player/images"}},
     {"player/movers", {"player/scene"}},
     {"player/reflections", {"player/scene"}},
-    {"player/passes", {"player/movers", "player/reflections", "formats/image", "formats/shadow"}},
+    {"player/passes", {"player/movers", "player/reflections", "formats/image"}},
     {"player/session", {"player/passes", "formats/analysis", "formats/cli"}},
     {"player/output", {"player/session"}},
     {"player/window", {"player/output"}},
     {"player/app", {"player/window"}},
-    {"preview/frame", {"bake/import", "bake/reference", "player/passes", "formats/shadow"}},  // they meet here
+    {"preview/frame", {"bake/import", "bake/reference", "player/passes"}},  // they meet here
     {"preview", {"preview/frame", "bake/run", "player/window"}},
     {"scenes/kit", {"formats/core"}},
     {"scenes", {"scenes/kit", "formats/image", "formats/cli"}},

@@ -18,7 +18,7 @@ const std::set<std::string> kAlwaysEffective = {
     "--light-groups", "--memory-limit", "--move",  "--mover",  "--only",         "--pvs",          "--reproducible",
     "--resolution",   "--samples",      "--scene", "--sky",    "--sky-type",     "--texel",        "--texel-means",
     "--time",         "--unit",         "--verify"};
-constexpr SceneFacts kAll{true, true, true, true, true};
+constexpr IdleFacts kAll{true, true, true, true, true};
 
 BakeOptions with(const std::string& option) {
   BakeOptions o = command_line_defaults();

@@ -69,6 +69,7 @@ TEST(IdleOptions, AreToldOfWhereTheyDoNothing) {
   for (const std::string& name : idle_option_names()) {
     PlayArguments effective;
     if (name == "--format") effective.output = "folder";
+    if (name == "--live-direct") effective.frame.live.lights.indirect = LiveIndirect::kLights;
     EXPECT_FALSE(is_idle(name, all, effective)) << name;
     const auto mode = kIdleIn.find(name);
     PlayArguments idle;

@@ -1,6 +1,6 @@
 // Shadow volumes of any triangles: what is counted along a line, against the triangles that the line to the light
 // meets.
-#include "formats/shadow/shadow_mesh.h"
+#include "study/support/shadow_mesh.h"
 
 #include <gtest/gtest.h>
 

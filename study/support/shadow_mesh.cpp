@@ -1,4 +1,4 @@
-#include "formats/shadow/shadow_mesh.h"
+#include "study/support/shadow_mesh.h"
 
 #include <algorithm>
 #include <cmath>
