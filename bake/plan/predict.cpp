@@ -133,7 +133,7 @@ Result<Component> predict_reflections(const CensusInput& in, Context& context) {
   BakeOptions options = in.options;
   options.planned.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
   Pack dark;
-  const BakeTask task{options, in.prepared, in.lights, context, dark};
+  const BakeTask task{options, in.prepared, in.lights, context, {}};
   ORIEL_TRY(PlannedReflections planned, plan_reflections(task, in.reflections, HUGE_VAL));
   if (planned.has_images()) ORIEL_TRY_VOID(time_reflections(task, dark, planned));
   Component c{.name = "radiance", .seconds = planned.seconds + planned.capture_s};

@@ -1,4 +1,5 @@
 #include "bake/run/measure.h"
+#include "bake/run/prepare.h"
 
 #include "bake/jobs/parallel.h"
 #include "bake/run/options.h"

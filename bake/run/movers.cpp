@@ -83,10 +83,10 @@ FieldBox field_box(const Scene& scene, std::span<const WalkGrid> grids, std::spa
 
 }  // namespace
 
-Result<std::vector<MoverReport>> bake_movers(const BakeTask& bake, MaterialMaps& materials, std::uint64_t& rays) {
+Result<BakedMovers> bake_movers(const BakeTask& bake, MaterialMaps& materials, std::uint64_t& rays) {
   const BakeOptions& options = bake.options;
   Context& context = bake.context;
-  std::vector<MoverReport> reports;
+  BakedMovers baked;
   std::atomic<std::uint64_t> counted{0};
   for (const TakenMover& t : bake.prepared.movers) {
     ORIEL_TRY(const Accel accel, Accel::build(t.scene, {options.reproducible, context.threads}));
@@ -108,18 +108,19 @@ Result<std::vector<MoverReport>> bake_movers(const BakeTask& bake, MaterialMaps&
     AssembledMesh mesh = assemble_mesh(t.scene, none);
     reorder(mesh.scene_vertex, mover.transfer);
     mover.mesh = std::move(mesh.mesh);
-    reports.push_back({mover.name, mover.mesh.positions.size(), transfer.standard_error, mover.transfer.error,
-                       mover.transfer.bytes_per_vertex(), coarse_share(t.scene, transfer)});
-    warn_about(reports.back(), context);
-    bake.pack.movers.push_back(std::move(mover));
+    baked.reports.push_back({mover.name, mover.mesh.positions.size(), transfer.standard_error, mover.transfer.error,
+                             mover.transfer.bytes_per_vertex(), coarse_share(t.scene, transfer)});
+    warn_about(baked.reports.back(), context);
+    baked.movers.push_back(std::move(mover));
     const std::vector<MaterialSummary> summaries = summarize_materials(t.scene);
     for (const Surface& surface : t.scene.surfaces) materials.summaries[surface.material] = summaries[surface.material];
   }
   rays += counted;
-  return reports;
+  return baked;
 }
 
-Status bake_light_field(const BakeTask& bake, std::function<bool()> enough, std::uint64_t& rays) {
+Result<LightField> bake_light_field(const BakeTask& bake, std::span<const WalkGrid> floors,
+                                    std::function<bool()> enough, std::uint64_t& rays) {
   const BakedScene baked = bake.baked();
   const SurfaceRadiance radiance = [&](const Hit& hit, const Vec3& towards_eye, bool with_emission) {
     return baked_radiance(baked, {.hit = hit, .towards_eye = towards_eye, .emission = with_emission});
@@ -127,13 +128,13 @@ Status bake_light_field(const BakeTask& bake, std::function<bool()> enough, std:
   ProbeOptions probes = bake.options.probes;
   probes.bands = bake.options.transfer.bands;
   probes.enough = std::move(enough);
-  const FieldBox box = field_box(bake.scene(), bake.pack.walk_grids, bake.prepared.movers);
+  const FieldBox box = field_box(bake.scene(), floors, bake.prepared.movers);
   const StageInputs inputs(bake.context, LitScene{baked}, box.lower, box.upper, probes);
   std::atomic<std::uint64_t> counted{0};
-  ORIEL_TRY(bake.pack.light_field,
+  ORIEL_TRY(LightField field,
             bake_probes({baked.accel, baked.lights, radiance}, box, probes, {bake.context, &counted}));
   rays += counted;
-  return {};
+  return field;
 }
 
 }  // namespace oriel

@@ -15,13 +15,19 @@ struct MoverReport {
   float coarse_share = 0;  // of the surface whose vertices are too far apart for what shades them
 };
 
-// Transfer of every mover, compressed, into pack.movers; the summaries of the materials that only movers have into
-// `materials`. Adds to `rays`. Errors kStopped, kUsage.
-Result<std::vector<MoverReport>> bake_movers(const BakeTask& bake, MaterialMaps& materials, std::uint64_t& rays);
+struct BakedMovers {
+  std::vector<Mover> movers;
+  std::vector<MoverReport> reports;  // by mover
+};
 
-// The light field over where people walk (pack.walk_grids), or over the scene where that is not known, and over where
-// the movers' animations take them: from the pack's lightmaps. It is refined until there is `enough`. Adds to `rays`.
-// Errors kStopped, kUsage.
-Status bake_light_field(const BakeTask& bake, std::function<bool()> enough, std::uint64_t& rays);
+// Every mover with its transfer, compressed. The summaries of the materials that only movers have go into `materials`.
+// Adds to `rays`. Errors kStopped, kUsage.
+Result<BakedMovers> bake_movers(const BakeTask& bake, MaterialMaps& materials, std::uint64_t& rays);
+
+// The light field over where people walk (`floors`), or over the scene where that is not known, and over where the
+// movers' animations take them: from the lightmaps. It is refined until there is `enough`. Adds to `rays`. Errors
+// kStopped, kUsage.
+Result<LightField> bake_light_field(const BakeTask& bake, std::span<const WalkGrid> floors,
+                                    std::function<bool()> enough, std::uint64_t& rays);
 
 }  // namespace oriel

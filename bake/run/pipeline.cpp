@@ -19,7 +19,6 @@
 #include "bake/run/time_budget.h"
 #include "bake/run/unlit.h"
 #include "bake/run/visibility.h"
-#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
@@ -66,25 +65,35 @@ class Bake {
   Bake(const Bake&) = delete;
   Bake& operator=(const Bake&) = delete;
 
+  // Each step returns its product; what a pack holds of it is put there here alone.
   Result<BakeResult> run() {
     ORIEL_TRY_VOID(prepare());
     // What needs no light comes first: what it takes is known when the lightmap asks how long it may be refined.
-    ORIEL_TRY_VOID(make_materials());
-    ORIEL_TRY_VOID(find_reflectors());
-    ORIEL_TRY_VOID(find_visible_sets());
-    ORIEL_TRY_VOID(plan_views());
-    tell_idle_options();
-    ORIEL_TRY_VOID(make_transfer());
-    ORIEL_TRY_VOID(fit_to_time());
-    ORIEL_TRY_VOID(foretell_reflections());
-    ORIEL_TRY_VOID(bake_lightmap());
-    ORIEL_TRY_VOID(keep_energy_ledger());
-    ORIEL_TRY_VOID(weigh_unlit());
-    ORIEL_TRY_VOID(capture_reflections());
-    ORIEL_TRY_VOID(make_light_field());
-    ORIEL_TRY_VOID(assemble());
+    ORIEL_TRY(MaterialMaps materials, bake_material_maps());
+    ORIEL_TRY(FoundReflections found, find_reflectors(materials));
+    AssembledMesh mesh = assemble_mesh(scene(), prepared_.atlas);
+    ORIEL_TRY(SceneSets sets, find_visible_sets(found, mesh));
+    ORIEL_TRY(PlannedReflections planned, plan_views(std::move(found), std::move(sets.reflected_triangles)));
+    tell_idle_options(planned);
+    ORIEL_TRY(BakedMovers movers, bake_transfer_of_movers(materials));
+    ORIEL_TRY(later_s_, fit_to_time(planned));
+    ORIEL_TRY_VOID(foretell_reflections(planned));
+    ORIEL_TRY(Radiosity light, bake_lightmap());
+    ORIEL_TRY(result_.ledger, keep_energy_ledger(light));
+    pack().lightmaps = std::move(light.pages);
+    ORIEL_TRY(unlit_white_, weigh_unlit());
+    planned.light_reused = light.report.reuse.reused > 0;
+    if (options_.with_radiance) pack().walk_grids = planned.all.region.grids;
+    ORIEL_TRY(BakedReflections reflections, capture_reflections(std::move(planned), materials, mesh));
+    put(std::move(sets.visible), std::move(sets.reflected), reflections);
+    ORIEL_TRY(pack().light_field, bake_light_field_of_movers());
+    pack().movers = std::move(movers.movers);
+    ORIEL_TRY(pack().frosted_panes, find_frosted_panes(mesh, pack().emitters));
+    assemble(std::move(materials), std::move(mesh), light.groups);
+    ORIEL_TRY(const Start start, choose_start());
+    hash_sets(pack());
     ORIEL_TRY_VOID(check());
-    describe();
+    describe({start, sets.report, reflections.report, movers.reports});
     return std::move(result_);
   }
 
@@ -114,84 +123,79 @@ class Bake {
     forecast_.expect("first light", std::max(Forecast::kTexel_s * texels / thread_count(context_), kLeastLight_s));
   }
 
-  Status make_materials() {
-    ORIEL_TRY(materials_, timed_("material", [&](auto&) {
-                const StageInputs inputs(context_, std::string("material"));
-                return bake_materials(scene(), material_options(options_), context_);
-              }));
-    return {};
+  Result<MaterialMaps> bake_material_maps() {
+    return timed_("material", [&](auto&) {
+      const StageInputs inputs(context_, std::string("material"));
+      return bake_materials(scene(), material_options(options_), context_);
+    });
   }
 
-  Status find_reflectors() {
-    if (!options_.with_radiance) return {};
-    ORIEL_TRY(found_, timed_("reflectors", [&](auto&) {
-                return find_reflections(options_, prepared_, materials_.summaries, context_);
-              }));
-    return {};
+  // None where reflections are left out.
+  Result<FoundReflections> find_reflectors(const MaterialMaps& materials) {
+    if (!options_.with_radiance) return FoundReflections();
+    return timed_("reflectors",
+                  [&](auto&) { return find_reflections(options_, prepared_, materials.summaries, context_); });
   }
 
   // Each reflector's way, by what it shows; the viewpoints of those that have maps.
-  Status plan_views() {
+  Result<PlannedReflections> plan_views(FoundReflections found, std::vector<std::uint64_t> reflected_triangles) {
+    PlannedReflections planned;
     if (options_.with_radiance) {
-      if (reflected_triangles_.empty())
-        reflected_triangles_.assign(found_.found.reflectors.size(), scene().triangles.size());
-      choose_ways(options_.ways, options_.target, reflected_triangles_, found_.found.reflectors);
-      ORIEL_TRY(planned_, timed_("views", [&](auto&) {
-                  return plan_reflections(task(), std::move(found_), budget_.for_views());
+      if (reflected_triangles.empty())
+        reflected_triangles.assign(found.found.reflectors.size(), scene().triangles.size());
+      choose_ways(options_.ways, options_.target, reflected_triangles, found.found.reflectors);
+      ORIEL_TRY(planned, timed_("views", [&](auto&) {
+                  return plan_reflections(task(), std::move(found), budget_.for_views());
                 }));
     }
-    if (!planned_.has_images()) return {};
-    return timed_("mips", [&](auto&) { return make_mips(prepared_.imported->scene, context_); });
+    if (planned.has_images())
+      ORIEL_TRY_VOID(timed_("mips", [&](auto&) { return make_mips(prepared_.imported->scene, context_); }));
+    return planned;
   }
 
-  void tell_idle_options() {
+  void tell_idle_options(const PlannedReflections& planned) {
     const auto is_sun = [](const Light& light) { return light.type == LightType::kDirectional; };
     const IdleFacts facts{std::any_of(scene().lights.begin(), scene().lights.end(), is_sun), !prepared_.movers.empty(),
-                          !planned_.empty(), !planned_.plan.maps.empty(), context_.units != nullptr};
+                          !planned.empty(), !planned.plan.maps.empty(), context_.units != nullptr};
     for (const std::string& line : idle_options(options_, facts)) context_.warning(line);
   }
 
-  Status find_visible_sets() {
-    mesh_ = assemble_mesh(scene(), prepared_.atlas);
+  // Sorts the mesh's triangles by what is seen together, where sets pay.
+  Result<SceneSets> find_visible_sets(const FoundReflections& found, AssembledMesh& mesh) {
     ORIEL_TRY(SceneSets sets, timed_("visibility", [&](std::uint64_t& rays) {
-                auto found = bake_visibility(task(), {found_.region.grids, found_.eyes, found_.found.reflectors},
-                                             budget_.for_visible_sets(), mesh_);
-                if (found) rays += found->report.lines;
-                return found;
+                auto baked = bake_visibility(task(), {found.region.grids, found.eyes, found.found.reflectors},
+                                             budget_.for_visible_sets(), mesh);
+                if (baked) rays += baked->report.lines;
+                return baked;
               }));
-    visibility_ = sets.report;
     omit(sets.omissions);
-    pack().visible_sets = std::move(sets.visible);
-    pack().reflected_sets = std::move(sets.reflected);
-    reflected_triangles_ = std::move(sets.reflected_triangles);
-    return {};
+    return sets;
   }
 
-  Status make_transfer() {
-    if (prepared_.movers.empty()) return {};
-    ORIEL_TRY(movers_, timed_("transfer", [&](std::uint64_t& rays) { return bake_movers(task(), materials_, rays); }));
-    return {};
+  Result<BakedMovers> bake_transfer_of_movers(MaterialMaps& materials) {
+    if (prepared_.movers.empty()) return BakedMovers();
+    return timed_("transfer", [&](std::uint64_t& rays) { return bake_movers(task(), materials, rays); });
   }
 
-  Status fit_to_time() {
-    if (!budget_.limited()) return {};
-    ORIEL_TRY(later_s_, timed_("timing", [&](auto&) { return fit_reflections(task(), budget_, planned_); }));
-    return {};
+  // Makes maps as large as --time allows; the seconds that all stages behind the lightmap are likely to take.
+  Result<double> fit_to_time(PlannedReflections& planned) {
+    if (!budget_.limited()) return 0;
+    return timed_("timing", [&](auto&) { return fit_reflections(task(), budget_, planned); });
   }
 
   // A few of their pixels tell how long all take.
-  Status foretell_reflections() {
-    if (!planned_.has_images()) return {};
+  Status foretell_reflections(PlannedReflections& planned) {
+    if (!planned.has_images()) return {};
     if (!budget_.limited()) {
       Pack dark;
-      ORIEL_TRY_VOID(time_reflections(task(), dark, planned_));
+      ORIEL_TRY_VOID(time_reflections(task(), dark, planned));
     }
-    forecast_.expect("radiance", planned_.capture_s - planned_.surround_s);
-    forecast_.expect("surroundings", planned_.surround_s);
+    forecast_.expect("radiance", planned.capture_s - planned.surround_s);
+    forecast_.expect("surroundings", planned.surround_s);
     return {};
   }
 
-  Status bake_lightmap() {
+  Result<Radiosity> bake_lightmap() {
     RadiosityOptions radiosity = options_.radiosity;
     radiosity.enough = refined_enough(options_, budget_, later_s_, context_);
     if (budget_.limited()) {
@@ -201,82 +205,90 @@ class Bake {
     radiosity.directional = choose_directional(scene(), options_.directional, result_.omissions);
     radiosity.eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
     radiosity.held_out = held_out_eyes(prepared_.region, kLightmapEyes, context_.seed);
-    ORIEL_TRY(radiosity_, timed_("radiosity", [&](std::uint64_t& rays) {
+    ORIEL_TRY(Radiosity light, timed_("radiosity", [&](std::uint64_t& rays) {
                 const StageInputs inputs(context_, SurfacesOf{scene()}, LightsOf{scene()}, LayoutOf{prepared_.atlas},
                                          path_options(options_).max_bounces);
                 auto baked = bake_radiosity(laid_out(), radiosity, context_);
                 if (baked) rays = baked->report.rays;
                 return baked;
               }));
-    result_.radiosity = radiosity_.report;
-    planned_.light_reused = radiosity_.report.reuse.reused > 0;
+    result_.radiosity = light.report;
     context_.finishable = true;
-    judge_error(options_, radiosity_.report, budget_, context_, result_.shortfalls);
-    return {};
+    judge_error(options_, light.report, budget_, context_, result_.shortfalls);
+    if (!scene().light_groups.empty() && light.groups.empty())
+      result_.omissions.emplace_back(
+          "light groups: --estimator cached tells whose light it is, without --hidden-black");
+    return light;
   }
 
-  Status keep_energy_ledger() {
+  // Where the light goes; empty where there is no time for it.
+  Result<Ledger> keep_energy_ledger(const Radiosity& light) {
     ORIEL_TRY(auto ledger, timed_("ledger", [&](std::uint64_t& rays) {
-                const auto at_most =
-                    static_cast<std::uint64_t>(kLedgerRays * static_cast<double>(radiosity_.report.rays));
-                auto kept = unless_late(budget_, context_,
-                                        [&] { return keep_ledger(laid_out(), radiosity_, at_most, context_); });
+                const auto at_most = static_cast<std::uint64_t>(kLedgerRays * static_cast<double>(light.report.rays));
+                auto kept =
+                    unless_late(budget_, context_, [&] { return keep_ledger(laid_out(), light, at_most, context_); });
                 if (kept && *kept) rays = (*kept)->rays;
                 return kept;
               }));
     if (!ledger)
       result_.omissions.emplace_back("energy ledger: left out, --time was over; a longer one has it",
                                      WarningKind::kTimeOver);
-    result_.ledger = ledger.value_or(Ledger());
-    result_.findings = ledger_findings(result_.ledger);
-    pack().lightmaps = std::move(radiosity_.pages);
-    if (!scene().light_groups.empty() && radiosity_.groups.empty())
-      result_.omissions.emplace_back(
-          "light groups: --estimator cached tells whose light it is, without --hidden-black");
-    return {};
+    result_.findings = ledger_findings(ledger.value_or(Ledger()));
+    return ledger.value_or(Ledger());
   }
 
-  Status weigh_unlit() {
-    const auto eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
-    ORIEL_TRY(unlit_white_, unlit_white(task(), path_options(options_), eyes));
-    return {};
+  Result<float> weigh_unlit() {
+    return unlit_white(task(), path_options(options_), sample_eyes(prepared_.region, kLightmapEyes, context_.seed));
   }
 
-  Status capture_reflections() {
+  Result<BakedReflections> capture_reflections(PlannedReflections planned, const MaterialMaps& materials,
+                                               const AssembledMesh& mesh) {
     if (!options_.with_radiance) {
       result_.omissions.emplace_back("radiance maps: left out by --only");
-      return {};
+      return BakedReflections();
     }
-    ORIEL_TRY(reflections_, timed_("radiance", [&](std::uint64_t& rays) {
-                auto made = reflections_in_time();
-                if (made) rays = made->rays;
+    ORIEL_TRY(BakedReflections reflections, timed_("radiance", [&](std::uint64_t& rays) {
+                auto made = reflections_in_time(std::move(planned), materials, mesh);
+                if (made) rays = made->report.rays;
                 return made;
               }));
-    result_.map_reuse = reflections_.reuse;
-    omit(reflections_.omissions);
-    return {};
+    result_.map_reuse = reflections.report.reuse;
+    omit(reflections.report.omissions);
+    return reflections;
   }
 
   // Left out where the user or the time wants the bake to finish.
-  Result<ReflectionReport> reflections_in_time() {
+  Result<BakedReflections> reflections_in_time(PlannedReflections planned, const MaterialMaps& materials,
+                                               const AssembledMesh& mesh) {
     const double writing = budget_.limited() ? TimeBudget::writing(bytes_of(pack(), {})) : 0;
     const Interruptible until(context_, [&] { return context_.finish || budget_.left() <= writing; });
-    auto made = bake_reflections(task(), planned_, materials_, mesh_);
+    auto made = bake_reflections(task(), planned, materials, mesh);
     if (made || made.error().code != ErrorCode::kStopped || context_.stop) return made;
-    pack().emitters.clear();
     const Warning why =
         context_.finish
             ? Warning("left out, the user asked the bake to finish")
-            : Warning(fmt::format("left out, --time was over; {:.0f} s more have them", std::ceil(planned_.capture_s)),
+            : Warning(fmt::format("left out, --time was over; {:.0f} s more have them", std::ceil(planned.capture_s)),
                       WarningKind::kTimeOver);
-    return mirror_geometry(std::move(planned_), mesh_, why, pack());
+    return mirror_geometry(std::move(planned), mesh, why);
   }
 
-  Status make_light_field() {
+  void put(VisibleSets visible, ReflectedSets reflected, BakedReflections& reflections) {
+    pack().visible_sets = std::move(visible);
+    pack().reflected_sets = std::move(reflected);
+    pack().reflectors = std::move(reflections.reflectors);
+    pack().radiance_maps = std::move(reflections.radiance_maps);
+    pack().map_meshes = std::move(reflections.map_meshes);
+    pack().emitters = std::move(reflections.emitters);
+    pack().curved_reflectors = std::move(reflections.curved_reflectors);
+    pack().surround_maps = std::move(reflections.surround_maps);
+  }
+
+  // None where nothing moves.
+  Result<LightField> bake_light_field_of_movers() {
     if (!wants_light_field()) {
       if (options_.with_transfer)
         result_.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
-      return {};
+      return LightField();
     }
     std::atomic<bool> late{false};
     const double writing = TimeBudget::writing(bytes_of(pack(), {}));
@@ -284,29 +296,37 @@ class Bake {
       if (context_.finish || budget_.left() <= writing) late = true;
       return late.load();
     };
-    ORIEL_TRY_VOID(timed_("probes", [&](std::uint64_t& rays) { return bake_light_field(task(), enough, rays); }));
+    ORIEL_TRY(LightField field, timed_("probes", [&](std::uint64_t& rays) {
+                return bake_light_field(task(), pack().walk_grids, enough, rays);
+              }));
     if (late) result_.omissions.emplace_back("light field: its last refinement is left out, the bake was to end");
-    return {};
+    return field;
   }
 
-  Status assemble() {
+  // Appends to `emitters` those that only panes show.
+  Result<std::vector<Reflector>> find_frosted_panes(const AssembledMesh& mesh, std::vector<Emitter>& emitters) {
     context_.foretell("writing", 0);
-    ORIEL_TRY_VOID(timed_("panes", [&](auto&) { return list_frosted_panes(task(), mesh_, result_.omissions); }));
-    if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
-    assemble_scene(scene(), std::move(materials_), std::move(mesh_), pack());
+    return timed_("panes", [&](auto&) { return list_frosted_panes(task(), mesh, emitters, result_.omissions); });
+  }
+
+  // groups: as Radiosity::groups.
+  void assemble(MaterialMaps materials, AssembledMesh mesh, const std::vector<std::vector<LightmapPage>>& groups) {
+    if (!options_.with_material) leave_out_kernels(materials, result_.omissions);
+    assemble_scene(scene(), std::move(materials), std::move(mesh), pack());
     for (Material& material : pack().materials)
       if (material.unlit) material.emission = Vec3(unlit_white_);
-    ORIEL_TRY_VOID(timed_("light groups", [&](std::uint64_t& rays) -> Status {
-      assemble_light_groups(task().baked(), std::exchange(radiosity_.groups, {}), rays, pack());
+    (void)timed_("light groups", [&](std::uint64_t& rays) -> Status {
+      assemble_light_groups(task().baked(), groups, rays, pack());
       return {};
-    }));
-    ORIEL_TRY(start_, choose_start(task()));
-    if (!pack().visible_sets.empty())
-      pack().visible_sets.made_for = visibility_hash(pack().mesh, pack().materials, pack().walk_grids);
-    if (pack().reflectors.empty()) pack().reflected_sets = {};
-    if (!pack().reflected_sets.empty())
-      pack().reflected_sets.made_for = reflected_hash(pack().visible_sets, pack().reflectors);
-    return {};
+    });
+  }
+
+  // Adds a camera to a scene that has none.
+  Result<Start> choose_start() {
+    if (!pack().cameras.empty() || !pack().paths.empty()) return Start::kOfScene;
+    ORIEL_TRY(FirstLook first, find_start(task()));
+    pack().cameras.push_back(std::move(first.camera));
+    return first.inside ? Start::kInside : Start::kOutside;
   }
 
   Status check() {
@@ -316,17 +336,23 @@ class Bake {
     return {};
   }
 
+  struct Reports {
+    Start start;
+    const VisibilityReport& visibility;
+    const ReflectionReport& reflections;
+    const std::vector<MoverReport>& movers;
+  };
   // What the pack says of itself.
-  void describe() {
+  void describe(const Reports& reports) {
     tell_dropped(accel(), result_.findings);
     tell_backs(accel(), sample_eyes(prepared_.region, kLightmapEyes, context_.seed), context_.seed, result_.findings);
     judge_stages(result_, context_, result_.shortfalls);
     // With --time alone it goes on as long as that lasts: nobody asked for an error.
     const double asked = budget_.limited() && !options_.error_named ? 0 : options_.radiosity.error;
     pack().plan = plan_json({scene(), prepared_.atlas, prepared_.sides, result_.radiosity, result_.ledger, pack(),
-                             result_.omissions, lights_->power(), reflections_, movers_, visibility_,
-                             options_.radiosity.estimator == Estimator::kCached, asked, start_, result_.findings,
-                             result_.warnings});
+                             result_.omissions, lights_->power(), reports.reflections, reports.movers,
+                             reports.visibility, options_.radiosity.estimator == Estimator::kCached, asked,
+                             reports.start, result_.findings, result_.warnings});
     pack().provenance = provenance_json(options_, context_.seed, prepared_.imported->inputs);
     judge_time(options_, budget_, result_.times, context_, result_.shortfalls);
     const std::size_t warned = result_.warnings.size();
@@ -341,7 +367,7 @@ class Bake {
   const Accel& accel() const { return *prepared_.accel; }
   Pack& pack() { return result_.pack; }
   LightmapScene laid_out() const { return {*transport_, prepared_.atlas, prepared_.texel_map}; }
-  BakeTask task() { return {options_, prepared_, *lights_, context_, pack(), unlit_white_}; }
+  BakeTask task() { return {options_, prepared_, *lights_, context_, pack().lightmaps, unlit_white_}; }
   template <class Lines>
   void omit(const Lines& lines) {
     result_.omissions.insert(result_.omissions.end(), lines.begin(), lines.end());
@@ -360,26 +386,11 @@ class Bake {
   PreparedScene prepared_;
   std::optional<LightSet> lights_;      // of the prepared scene
   std::optional<Transport> transport_;  // likewise
-  MaterialMaps materials_;
-  FoundReflections found_;
-  std::vector<std::uint64_t> reflected_triangles_;  // by reflector
-  PlannedReflections planned_;
-  AssembledMesh mesh_;
-  VisibilityReport visibility_;
-  std::vector<MoverReport> movers_;
   float unlit_white_ = 1;
   double later_s_ = 0;  // that all stages behind the lightmap are likely to take
-  Radiosity radiosity_;
-  ReflectionReport reflections_;
-  Start start_ = Start::kOfScene;
 };
 
 }  // namespace
-
-void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
-  if (lights.empty() && luminance(scene.sky) <= 0)
-    context.warning("the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it is black");
-}
 
 Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   return Bake(options, context).run();

@@ -43,9 +43,6 @@ struct BakeResult {
 // Scene file → pack in memory. Errors as the stages give them; kStopped when context.stop was set.
 Result<BakeResult> bake(const BakeOptions& options, Context& context);
 
-// Warns where a scene has no light at all.
-void warn_about_light(const Scene& scene, const LightSet& lights, Context& context);
-
 // The bake as JSON for people's dashboards: the pack's plan and provenance, and the times that it does not hold.
 std::string report_json(const BakeResult& result);
 

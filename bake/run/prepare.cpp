@@ -214,4 +214,9 @@ Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& c
   return {};
 }
 
+void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
+  if (lights.empty() && luminance(scene.sky) <= 0)
+    context.warning("the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it is black");
+}
+
 }  // namespace oriel

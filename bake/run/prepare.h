@@ -53,4 +53,7 @@ MaterialOptions material_options(const BakeOptions& options);
 // Whether the lightmap is to hold directions; why not is noted.
 bool choose_directional(const Scene& scene, Directional wanted, std::vector<Warning>& omissions);
 
+// Warns where a scene has no light at all.
+void warn_about_light(const Scene& scene, const LightSet& lights, Context& context);
+
 }  // namespace oriel

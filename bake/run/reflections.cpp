@@ -191,10 +191,10 @@ Status judge(const LitSurroundings& lit, std::span<const RadianceMap> maps, cons
 
 // leave_out_emitters() as a unit of work.
 Status leave_out_lamps(const BakeTask& bake, const std::vector<float>& lobe_widths,
-                       std::vector<FoundReflector>& reflectors, std::vector<Warning>& omissions) {
+                       std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
+                       std::vector<Warning>& omissions) {
   const Accel& accel = bake.accel();
   Context& context = bake.context;
-  std::vector<Emitter>& emitters = bake.pack.emitters;
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, LightsOf{accel.scene()}, lobe_widths, reflectors);
   std::vector<std::string> omitted;
   ORIEL_TRY_VOID(one_unit(
@@ -298,19 +298,18 @@ double PlannedReflections::surround_pixels() const {
   return sum;
 }
 
-Result<ReflectionReport> bake_reflections(const BakeTask& bake, PlannedReflections planned,
+Result<BakedReflections> bake_reflections(const BakeTask& bake, PlannedReflections planned,
                                           const MaterialMaps& materials, const AssembledMesh& mesh) {
   const BakeOptions& options = bake.options;
   const BakedScene baked = bake.baked();
   const Accel& accel = bake.accel();
   Context& context = bake.context;
-  Pack& pack = bake.pack;
-  ReflectionReport report;
+  BakedReflections out;
+  ReflectionReport& report = out.report;
   auto& [region, eyes, lobes, found, curved, omissions] = planned.all;
   ViewPlan& plan = planned.plan;
   report.omissions = std::move(omissions);
-  pack.walk_grids = region.grids;
-  if (planned.empty()) return report;
+  if (planned.empty()) return out;
   std::vector<FoundReflector>& reflectors = found.reflectors;
   std::uint32_t paths = 1;
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
@@ -320,7 +319,7 @@ Result<ReflectionReport> bake_reflections(const BakeTask& bake, PlannedReflectio
   const std::vector<bool> is_shiny = shiny_triangles(accel.scene(), planned.all);
   const OutgoingRadiance to_planar = with_lobes_of(is_curved, outgoing);
   if (options.with_material)
-    ORIEL_TRY_VOID(leave_out_lamps(bake, lobe_widths(materials), reflectors, report.omissions));
+    ORIEL_TRY_VOID(leave_out_lamps(bake, lobe_widths(materials), reflectors, out.emitters, report.omissions));
   const ReflectedSurroundings surroundings(accel, reflectors, options.sight);
   ORIEL_TRY(const LobeShares shares, lobe_shares(baked, surroundings, plan.maps, planned.all, context));
   paths = lobe_paths(shares.planar * planned.planar_pixels() + shares.surround * planned.surround_pixels());
@@ -336,19 +335,19 @@ Result<ReflectionReport> bake_reflections(const BakeTask& bake, PlannedReflectio
   ORIEL_TRY_VOID(add_residuals(lit, residual, stage, reflectors, plan));
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
   ORIEL_TRY_VOID(judge(lit, plan.maps, judges, stage, report));
-  ORIEL_TRY(pack.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));
+  ORIEL_TRY(out.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));
   report.rays = rays;
-  pack.radiance_maps = std::move(plan.maps);
+  out.radiance_maps = std::move(plan.maps);
   for (const FoundReflector& r : reflectors) report.ways.push_back(r.why);
-  keep(reflectors, mesh, pack.reflectors);
-  pack.surround_maps = std::move(curved.maps);
-  keep(curved.reflectors, mesh, pack.curved_reflectors);
-  return report;
+  keep(reflectors, mesh, out.reflectors);
+  out.surround_maps = std::move(curved.maps);
+  keep(curved.reflectors, mesh, out.curved_reflectors);
+  return out;
 }
 
-ReflectionReport mirror_geometry(PlannedReflections planned, const AssembledMesh& mesh, const Warning& why,
-                                 Pack& pack) {
-  ReflectionReport report;
+BakedReflections mirror_geometry(PlannedReflections planned, const AssembledMesh& mesh, const Warning& why) {
+  BakedReflections out;
+  ReflectionReport& report = out.report;
   FoundReflections& all = planned.all;
   const std::size_t curved = all.curved.reflectors.size();
   report.omissions = std::move(all.omissions);
@@ -363,9 +362,8 @@ ReflectionReport mirror_geometry(PlannedReflections planned, const AssembledMesh
   if (curved > 0)
     report.omissions.emplace_back(
         fmt::format("surround maps of {} curved reflectors: {}; they show no reflections", curved, why.text), why.kind);
-  pack.walk_grids = all.region.grids;
-  keep(all.found.reflectors, mesh, pack.reflectors);
-  return report;
+  keep(all.found.reflectors, mesh, out.reflectors);
+  return out;
 }
 
 }  // namespace oriel

@@ -56,13 +56,23 @@ struct PlannedReflections {
 // `seconds`; infinite: all at once. Error kStopped.
 Result<PlannedReflections> plan_reflections(const BakeTask& bake, FoundReflections found, double seconds);
 
-// Captures the planned maps, all into the pack, whose lightmaps are there, and judges them. Error kStopped; the pack is
-// then as it was but for its emitters and walk grids.
-Result<ReflectionReport> bake_reflections(const BakeTask& bake, PlannedReflections planned,
+// As a pack holds them.
+struct BakedReflections {
+  std::vector<Reflector> reflectors;
+  std::vector<RadianceMap> radiance_maps;
+  std::vector<MapMesh> map_meshes;
+  std::vector<Emitter> emitters;
+  std::vector<CurvedReflector> curved_reflectors;
+  std::vector<SurroundMap> surround_maps;
+  ReflectionReport report;
+};
+
+// Captures the planned maps, in the light of the lightmaps, and judges them. Error kStopped.
+Result<BakedReflections> bake_reflections(const BakeTask& bake, PlannedReflections planned,
                                           const MaterialMaps& materials, const AssembledMesh& mesh);
 
 // In place of that where there is no time for images: planar reflectors are drawn as mirrored geometry, which needs
 // none. Curved ones show their light as if their lobes were wide. why: for people.
-ReflectionReport mirror_geometry(PlannedReflections planned, const AssembledMesh& mesh, const Warning& why, Pack& pack);
+BakedReflections mirror_geometry(PlannedReflections planned, const AssembledMesh& mesh, const Warning& why);
 
 }  // namespace oriel

@@ -1,13 +1,9 @@
 #include "bake/run/start.h"
 
-#include "bake/visibility/first_look.h"
-
 namespace oriel {
 
-Result<Start> choose_start(const BakeTask& bake) {
-  Pack& pack = bake.pack;
+Result<FirstLook> find_start(const BakeTask& bake) {
   const BakedScene baked = bake.baked();
-  if (!pack.cameras.empty() || !pack.paths.empty()) return Start::kOfScene;
   std::vector<WalkGrid> floors = bake.prepared.region.grids;
   if (bake.options.eyes.source != EyeSource::kWalk) {
     EyeOptions walk;  // people walk whatever eyes reflections are planned for
@@ -18,9 +14,7 @@ Result<Start> choose_start(const BakeTask& bake) {
   const SurfaceLight light = [&](const Hit& hit, const Vec3& towards_eye) {
     return baked_radiance(baked, {.hit = hit, .towards_eye = towards_eye});
   };
-  ORIEL_TRY(FirstLook first, find_first_look(baked.accel, floors, light, bake.context));
-  pack.cameras.push_back(std::move(first.camera));
-  return first.inside ? Start::kInside : Start::kOutside;
+  return find_first_look(baked.accel, floors, light, bake.context);
 }
 
 }  // namespace oriel

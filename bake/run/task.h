@@ -1,10 +1,11 @@
 // What the stages of one bake share.
 #pragma once
 
+#include <span>
+
 #include "bake/run/baked_light.h"
 #include "bake/run/options.h"
 #include "bake/run/prepare.h"
-#include "formats/pack/pack.h"
 
 namespace oriel {
 
@@ -14,13 +15,13 @@ struct BakeTask {
   const PreparedScene& prepared;
   const LightSet& lights;  // of the prepared scene
   Context& context;
-  Pack& pack;             // in the making
-  float unlit_white = 1;  // cd/m², unlit.h
+  std::span<const LightmapPage> lightmaps;  // baked so far
+  float unlit_white = 1;                    // cd/m², unlit.h
 
   const Scene& scene() const { return prepared.scene(); }
   const Accel& accel() const { return *prepared.accel; }
-  // With the light that the pack has so far.
-  BakedScene baked() const { return {accel(), lights, prepared.atlas, pack.lightmaps, unlit_white}; }
+  // With the light so far.
+  BakedScene baked() const { return {accel(), lights, prepared.atlas, lightmaps, unlit_white}; }
 };
 
 }  // namespace oriel

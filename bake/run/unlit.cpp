@@ -19,8 +19,7 @@ Result<float> unlit_white(const BakeTask& bake, const PathOptions& paths, std::s
   FloatImage seen{static_cast<std::uint32_t>(pixels.size()), 1, 3, {}};
   for (const FramePixel& p : pixels) {
     const Vec3 normal = geometric_normal(scene, p.triangle);
-    const Vec3 e =
-        baked_irradiance(bake.prepared.atlas, bake.pack.lightmaps, {p.triangle, p.barycentric}, normal, normal);
+    const Vec3 e = baked_irradiance(bake.prepared.atlas, bake.lightmaps, {p.triangle, p.barycentric}, normal, normal);
     const Vec3 light = p.transfer * e + p.emitted;
     seen.pixels.insert(seen.pixels.end(), {light.r, light.g, light.b});
   }

@@ -205,4 +205,11 @@ Result<SceneSets> bake_visibility(const BakeTask& bake, const SetEyes& onlookers
   return sets;
 }
 
+void hash_sets(Pack& pack) {
+  if (!pack.visible_sets.empty())
+    pack.visible_sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
+  if (pack.reflectors.empty()) pack.reflected_sets = {};
+  if (!pack.reflected_sets.empty()) pack.reflected_sets.made_for = reflected_hash(pack.visible_sets, pack.reflectors);
+}
+
 }  // namespace oriel

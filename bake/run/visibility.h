@@ -37,4 +37,7 @@ struct SceneSets {
 // empty and `omissions` says why. Error kStopped.
 Result<SceneSets> bake_visibility(const BakeTask& bake, const SetEyes& onlookers, double seconds, AssembledMesh& mesh);
 
+// Hashes of what a pack's sets are of, so that a reader knows whether they are of what they stand beside.
+void hash_sets(Pack& pack);
+
 }  // namespace oriel
