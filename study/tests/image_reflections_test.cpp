@@ -85,7 +85,8 @@ Way way_of(const Camera& camera, int x, int y, const IVec2& size) {
   return out;
 }
 
-// Boxes cover up to two of a map's pixels where they are turned, each 0.0625 m of the wall.
+// Boxes cover up to two of a map's pixels where they are turned, each 0.0625 m of the wall. Where no map's frustum
+// reaches it is black, but not for an eye opposite a map's.
 TEST_F(ImageMethod, PointsAreWhereGeometrySays) {
   const BakedMethod baked = baked_mirror();
   for (const Vec3& eye :
@@ -108,6 +109,7 @@ TEST_F(ImageMethod, PointsAreWhereGeometrySays) {
           sure = sure && in_square(way.on_wall + kMargin * off) == is_red;
         if (!sure) continue;
         red += is_red;
+        if (eye != Vec3(0, 0, 1) && p.at(x, y) == Vec3(0)) continue;
         wrong += glm::length(p.at(x, y) / Vec3(0.5f, 0.5f, 1) - (is_red ? kRed : kGrey)) > 1e-3f;
       }
     EXPECT_GT(red, 40) << eye.x << " " << eye.y << " " << eye.z;
@@ -193,7 +195,7 @@ TEST_F(ImageMethod, EverySizeAndAngleIsFinite) {
 
 // R = cosθ from a sphere map: right at the corners of its cells, so that many cells show it and one does not.
 TEST_F(ImageMethod, SphereMapsAreLookedUpAtVertices) {
-  BakedMethod baked = baked_mirror([](const Vec2&, const Vec3&) { return Seen{kGrey, kWall}; });
+  BakedMethod baked = baked_mirror([](const Vec2&, const Vec3&) { return Seen{kGrey, kWall}; }, {{0.2f, 0.1f, -0.5f}});
   baked.reflectors[0].sphere = make_sphere_map(128, [](double c) { return Vec3(static_cast<float>(c)); });
   const Camera camera = camera_to_mirror({0.2f, 0.1f, 0.5f});
   const IVec2 size(80, 60);
