@@ -186,8 +186,8 @@ TEST(MirrorGeometry, IsWhatMirrorsAreWithoutTimeForMaps) {
   AssembledMesh mesh;
   mesh.first_index = {0, 3};
   mesh.mesh.indices = {0, 1, 2, 2, 1, 3};
-  Pack pack;
-  const ReflectionReport report = mirror_geometry(std::move(planned), mesh, {"no time", WarningKind::kTimeOver}, pack);
+  const BakedReflections pack = mirror_geometry(std::move(planned), mesh, {"no time", WarningKind::kTimeOver});
+  const ReflectionReport& report = pack.report;
   ASSERT_EQ(pack.reflectors.size(), 1u);
   EXPECT_EQ(pack.reflectors[0].map_count, 0u);
   EXPECT_EQ(pack.reflectors[0].elements_x, 0u);
