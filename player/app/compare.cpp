@@ -146,7 +146,6 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   if (std::filesystem::path(arguments.reference).extension() == ".oriel") {
     ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
     ORIEL_TRY(const gpu::Device device, gpu::open_device());
-    if (arguments.gl_debug) gpu::enable_debug_output(device);
     ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device, {false, arguments.gpu_memory}));
     ORIEL_TRY(const auto renderer, Renderer::create(device));
     return compare_with_pack(*scene, *renderer, device, arguments);
@@ -156,7 +155,6 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(const std::uint32_t n, supersampling(arguments, picture));
   ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
-  if (arguments.gl_debug) gpu::enable_debug_output(device);
   ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device, {false, arguments.gpu_memory}));
   ORIEL_TRY(const Camera camera, choose_camera(*scene, arguments));
   ORIEL_TRY(const auto renderer, Renderer::create(device));

@@ -269,7 +269,6 @@ Status play_offscreen(DeferredPack pack, const PlayArguments& asked) {
   const PlayArguments arguments = !asked.video.empty() && !has_ffmpeg() ? without_film(asked) : asked;
   ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
-  if (arguments.gl_debug) gpu::enable_debug_output(device);
   ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device, {false, arguments.gpu_memory}));
   const bool along_path = !arguments.path.empty();
   ORIEL_TRY(auto shots, along_path ? path_shots(*scene, arguments) : choose_shots(*scene, arguments));

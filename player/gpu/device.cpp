@@ -32,12 +32,6 @@ const char* error_name(GLenum error) {
   }
 }
 
-void GLAPIENTRY print_message(GLenum, GLenum, GLuint, GLenum severity, GLsizei length, const GLchar* message,
-                              const void*) {
-  if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM) return;
-  std::fprintf(stderr, "OpenGL: %.*s\n", static_cast<int>(length), message);
-}
-
 }  // namespace
 
 Result<Device> open_device() {
@@ -80,7 +74,6 @@ Result<Device> open_device() {
   }
   device.point_size_max = std::max(1.0f, points[1]);
   device.pass_timers = desktop && device.renderer.find("llvmpipe") == std::string::npos;
-  device.debug_output = epoxy_has_gl_extension("GL_KHR_debug");
   if (desktop) {
     glEnable(GL_PROGRAM_POINT_SIZE);  // always on in OpenGL ES
     glDisable(GL_FRAMEBUFFER_SRGB);   // shaders encode
@@ -95,17 +88,6 @@ Status check_gl(const char* where) {
   for (int i = 0; i < 64 && glGetError() != GL_NO_ERROR; ++i) {
   }
   return fail(ErrorCode::kRuntime, where, "found {} (0x{:04x}), expected no OpenGL error", error_name(first), first);
-}
-
-void enable_debug_output(const Device& device) {
-  if (!device.debug_output) return;
-  glEnable(GL_DEBUG_OUTPUT);
-  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-  if (device.dialect == Dialect::kDesktop330) {
-    glDebugMessageCallback(print_message, nullptr);
-  } else {
-    glDebugMessageCallbackKHR(print_message, nullptr);
-  }
 }
 
 }  // namespace oriel::gpu

@@ -13,11 +13,10 @@ enum class Dialect { kDesktop330, kEs300 };
 struct Device {
   Dialect dialect = Dialect::kDesktop330;
   std::string vendor, renderer, version;
-  int texture_size = 0;       // largest width or height of a texture and of a viewport
-  int array_layers = 0;       // of a texture array
-  int samples = 1;            // of a pixel that can be drawn and read: 1 where it has no multisample textures
-  float point_size_max = 1;   // pixels
-  bool debug_output = false;  // KHR_debug is there
+  int texture_size = 0;      // largest width or height of a texture and of a viewport
+  int array_layers = 0;      // of a texture array
+  int samples = 1;           // of a pixel that can be drawn and read: 1 where it has no multisample textures
+  float point_size_max = 1;  // pixels
   // Whether timer queries tell passes apart: OpenGL 3.3 has them, but a rasteriser that draws tile by tile (llvmpipe)
   // draws passes into one framebuffer together, and each one's time is that of all.
   bool pass_timers = false;
@@ -29,8 +28,5 @@ Result<Device> open_device();
 
 // The first OpenGL error since the last call as a Status naming `where`; clears all of them.
 Status check_gl(const char* where);
-
-// Messages of the driver (KHR_debug) go to stderr from now on, errors and warnings only. Nothing where it is missing.
-void enable_debug_output(const Device& device);
 
 }  // namespace oriel::gpu

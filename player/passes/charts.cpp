@@ -114,32 +114,4 @@ std::vector<std::vector<std::uint8_t>> chart_colors(const Pack& pack) {
   return out;
 }
 
-std::vector<std::vector<std::uint8_t>> inner_texels(const Pack& pack) {
-  constexpr std::uint32_t kSeveral = kNoChart - 1;
-  constexpr int kReach = 2;
-  std::vector<std::vector<std::uint32_t>> charts;
-  for (const LightmapPage& page : pack.lightmaps) charts.emplace_back(std::size_t{page.width} * page.height, kNoChart);
-  each_touched(pack, [&](std::size_t page, std::size_t texel, std::uint32_t chart) {
-    std::uint32_t& of = charts[page][texel];
-    of = of == kNoChart || of == chart ? chart : kSeveral;
-  });
-  std::vector<std::vector<std::uint8_t>> out;
-  for (std::size_t p = 0; p < charts.size(); ++p) {
-    const IVec2 size(pack.lightmaps[p].width, pack.lightmaps[p].height);
-    const auto at = [&](int x, int y) {
-      return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
-    };
-    std::vector<std::uint8_t>& inner = out.emplace_back(charts[p].size(), std::uint8_t{0});
-    for (int y = kReach; y < size.y - kReach; ++y)
-      for (int x = kReach; x < size.x - kReach; ++x) {
-        const std::uint32_t own = charts[p][at(x, y)];
-        bool alone = own != kNoChart && own != kSeveral;
-        for (int j = -kReach; j <= kReach && alone; ++j)
-          for (int i = -kReach; i <= kReach; ++i) alone &= charts[p][at(x + i, y + j)] == own;
-        inner[at(x, y)] = alone ? 255 : 0;
-      }
-  }
-  return out;
-}
-
 }  // namespace oriel

@@ -17,9 +17,6 @@ std::vector<std::uint32_t> charts_of(const Mesh& mesh);
 // all texels that a triangle touches, black elsewhere.
 std::vector<std::vector<std::uint8_t>> chart_colors(const Pack& pack);
 
-// By page its texels: 255 where all within two texels of it are touched by the same chart alone, else 0.
-std::vector<std::vector<std::uint8_t>> inner_texels(const Pack& pack);
-
 // A chart's colour, sRGB as shown, [0, 1].
 Vec3 chart_color(std::uint32_t chart);
 

@@ -133,7 +133,6 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
-  ORIEL_TRY_VOID(scene_pass_.prepare(scene, options));
   const bool halves = options.halves && scene.fits_halves();
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples, halves));
   reflections_.use_halves(halves);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "player/passes/charts.h"
 #include "player/scene/surface.h"
 
 namespace oriel {
@@ -22,7 +21,6 @@ void set_frame(const gpu::Program& program, const FrameContext& context) {
   program.set("u_normal_texture", kNormalUnit);
   program.set("u_change", kChangeUnit);
   program.set("u_surfaces", kPlaceUnit);
-  program.set("u_inner", kInnerUnit);
   program.set("u_change_scale", Vec2(0));
   program.set("u_reflectance_count", scene.reflectance_tables().width());
   scene.reflectance_tables().bind(kReflectanceUnit);
@@ -65,36 +63,11 @@ Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
   ScenePass pass;
   ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
   ORIEL_TRY(pass.plain_depth_, gpu::Program::create("depth", dialect, "PLAIN"));
-  pass.dialect_ = dialect;
-  ORIEL_TRY_VOID(pass.make(kBilinear));
+  ORIEL_TRY(pass.opaque_, gpu::Program::create("scene", dialect));
+  ORIEL_TRY(pass.plain_, gpu::Program::create("scene", dialect, "PLAIN"));
+  ORIEL_TRY(pass.reflected_, gpu::Program::create("scene", dialect, "REFLECTED"));
+  ORIEL_TRY(pass.transparent_, gpu::Program::create("transparent", dialect));
   return pass;
-}
-
-Status ScenePass::make(LightForm form) {
-  constexpr std::array<const char*, kForms> kDefine{"", "BICUBIC"};
-  const std::string define = kDefine[form];
-  Lit lit;
-  ORIEL_TRY(lit.opaque, gpu::Program::create("scene", dialect_, define));
-  ORIEL_TRY(lit.plain, gpu::Program::create("scene", dialect_, define + " PLAIN"));
-  ORIEL_TRY(lit.reflected, gpu::Program::create("scene", dialect_, define + " REFLECTED"));
-  ORIEL_TRY(lit.transparent, gpu::Program::create("transparent", dialect_, define));
-  lit_[form] = std::move(lit);
-  return {};
-}
-
-Status ScenePass::prepare(const GpuScene& scene, const FrameOptions& options) {
-  form_ = options.lightmap_filter == LightmapFilter::kBicubic ? kBicubic : kBilinear;
-  if (!lit_[form_]) ORIEL_TRY_VOID(make(form_));
-  if (form_ != kBicubic || inner_of_ == scene.geometry_serial()) return {};
-  const std::vector<std::vector<std::uint8_t>> inner = inner_texels(scene.pack());
-  inner_.clear();
-  for (std::size_t p = 0; p < inner.size(); ++p) {
-    const LightmapPage& page = scene.pack().lightmaps[p];
-    inner_.emplace_back(gpu::kR8, static_cast<int>(page.width), static_cast<int>(page.height), inner[p].data(),
-                        gpu::TextureOptions{.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR});
-  }
-  inner_of_ = scene.geometry_serial();
-  return {};
 }
 
 void ScenePass::set_material(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
@@ -103,7 +76,6 @@ void ScenePass::set_material(const gpu::Program& program, const GpuScene& scene,
   const LoadedLightmap& lightmap = scene.lightmap(lightmap_page);
   lightmap.texture.bind(kLightmapUnit);
   program.set("u_lightmap_scale", lightmap.scale);
-  if (form_ == kBicubic && lightmap_page >= 0) inner_[static_cast<std::size_t>(lightmap_page)].bind(kInnerUnit);
   const bool directional = static_cast<bool>(lightmap.direction);
   program.set("u_directional", directional ? 1 : 0);
   (directional ? lightmap.direction : lightmap.texture).bind(kDirectionUnit);
@@ -144,24 +116,24 @@ void ScenePass::draw_opaque(const FrameContext& context, std::span<const DrawBat
                             const std::set<std::uint32_t>& reflective,
                             const std::optional<BrightChange>& change) const {
   const auto& [scene, view, options, stats] = context;
-  set_frame(lit().plain, context);
-  set_frame(lit().opaque, context);
+  set_frame(plain_, context);
+  set_frame(opaque_, context);
   scene.bind_shown();
   if (change) {
     change->on_scene->bind(kChangeUnit);
     change->scene_surfaces->bind(kPlaceUnit);
-    lit().opaque.set("u_change_scale",
-                     Vec2(static_cast<float>(change->on_scene->width()) / static_cast<float>(view.width),
-                          static_cast<float>(change->on_scene->height()) / static_cast<float>(view.height)));
+    opaque_.set("u_change_scale",
+                Vec2(static_cast<float>(change->on_scene->width()) / static_cast<float>(view.width),
+                     static_cast<float>(change->on_scene->height()) / static_cast<float>(view.height)));
   }
-  lit().opaque.set("u_alpha_kind", 0);
+  opaque_.set("u_alpha_kind", 0);
   gpu::RasterState state;
   state.depth_test = true;
   state.stencil_read = kReflectorBits;
   for (const DrawBatch& batch : shown) {
     const bool twice = reflective.contains(batch.material);
     const Material& m = scene.pack().materials[batch.material];
-    const gpu::Program& program = is_plain(scene, batch.material) && !change ? lit().plain : lit().opaque;
+    const gpu::Program& program = is_plain(scene, batch.material) && !change ? plain_ : opaque_;
     program.use();
     state.cull = cull_of(m);
     state.blend = gpu::Blend::kNone;
@@ -186,7 +158,7 @@ void ScenePass::draw_reflected_depth(const FrameContext& context, const Mirrored
 
 void ScenePass::draw_reflected(const FrameContext& context, const MirroredScene& mirrored) const {
   const auto& [scene, view, options, stats] = context;
-  for (const gpu::Program* program : {&lit().reflected, &lit().opaque}) {
+  for (const gpu::Program* program : {&reflected_, &opaque_}) {
     set_frame(*program, context);
     set_distance_alpha(*program, view);
   }
@@ -196,7 +168,7 @@ void ScenePass::draw_reflected(const FrameContext& context, const MirroredScene&
   state.stencil_read = kReflectorBits;
   const auto draw = [&](const DrawBatch& batch, float undirected, float emission) {
     const Material& m = scene.pack().materials[batch.material];
-    const gpu::Program& program = is_plain(scene, batch.material) ? lit().reflected : lit().opaque;
+    const gpu::Program& program = is_plain(scene, batch.material) ? reflected_ : opaque_;
     program.use();
     state.cull = cull_of(m);
     gpu::apply(state);
@@ -223,7 +195,7 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
   const auto& [scene, view, options, stats] = context;
   std::vector<SeeThrough> sorted = see_through(scene, view);
   if (sorted.empty()) return {};
-  set_frame(lit().transparent, context);
+  set_frame(transparent_, context);
   gpu::RasterState state;
   state.depth_test = true;
   state.alpha_write = false;
@@ -233,17 +205,17 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
     bool solid = false;
     if (glass && one.body) {
       ORIEL_TRY(solid, glass(one.index));
-      if (solid) set_frame(lit().transparent, context);
+      if (solid) set_frame(transparent_, context);
     }
     for (const DrawRange& range : one.ranges) {
       state.cull = cull_of(scene.pack().materials[range.material]);
-      set_material(lit().transparent, scene, range.material, range.lightmap_page);
+      set_material(transparent_, scene, range.material, range.lightmap_page);
       const auto draw = [&](gpu::Blend blend, bool dimming, GLenum func, float undirected) {
         state.blend = blend;
         state.stencil_func = func;
         gpu::apply(state);
-        lit().transparent.set("u_dimming", dimming ? 1 : 0);
-        lit().transparent.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
+        transparent_.set("u_dimming", dimming ? 1 : 0);
+        transparent_.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
         draw_indices(range.first_index, range.index_count, stats);
       };
       if (!solid) draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);

@@ -40,8 +40,6 @@ using DrawGlass = std::function<Result<bool>(std::size_t body)>;
 class ScenePass {
  public:
   static Result<ScenePass> create(gpu::Dialect dialect);
-  // Before a frame: the programs that it needs, and of a bicubic lightmap where charts are wide enough for it.
-  Status prepare(const GpuScene& scene, const FrameOptions& options);
 
   // Depth of the opaque scene into the bound framebuffer. shown: what of it.
   void draw_depth(const FrameContext& context, std::span<const DrawBatch> shown) const;
@@ -61,23 +59,13 @@ class ScenePass {
 
  private:
   void draw_depths(const FrameContext& context, std::span<const DrawBatch> shown) const;
-  // How light between texels is made. plain: of surfaces without normal map, cut-outs or
-  // change by movers, that are lit; reflected: those in the image of a mirror.
-  enum LightForm { kBilinear, kBicubic, kForms };
-  struct Lit {
-    gpu::Program opaque, plain, reflected, transparent;
-  };
-  Status make(LightForm form);
-  const Lit& lit() const { return *lit_[form_]; }
   void set_material(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
                     std::int32_t lightmap_page) const;
 
-  gpu::Dialect dialect_{};
   gpu::Program depth_, plain_depth_;
-  std::array<std::optional<Lit>, kForms> lit_;  // made when first drawn
-  LightForm form_ = kBilinear;
-  std::vector<gpu::Texture2d> inner_;  // by page: inner_texels()
-  std::uint64_t inner_of_ = 0;         // whose they are
+  // plain: of surfaces without normal map, cut-outs or change by movers, that are lit; reflected: those in the image of
+  // a mirror.
+  gpu::Program opaque_, plain_, reflected_, transparent_;
 };
 
 }  // namespace oriel

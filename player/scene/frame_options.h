@@ -48,13 +48,8 @@ struct LiveSettings {
   bool operator==(const LiveSettings&) const = default;
 };
 
-// How light between texels of a lightmap is made: from four of them, or from sixteen by a cubic B-spline, as smooth as
-// radiosity is, where all of them are of one chart.
-enum class LightmapFilter { kBilinear, kBicubic };
-
 struct FrameOptions {
   Show show = Show::kAll;
-  LightmapFilter lightmap_filter = LightmapFilter::kBilinear;
   Reflections reflections = Reflections::kChosen;
   // Reflectors on the way of a reflection; none: two, and on while all of them are mirrors that keep half of the light.
   std::optional<int> orders = {};

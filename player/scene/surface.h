@@ -21,7 +21,6 @@ enum TextureUnit {
   kCellUnit = 9,     // of a lightmap
   kDetailUnit = 10,  // its finer light
   kPlaceUnit = 8,    // and where
-  kInnerUnit = 12,   // of a lightmap: where light between texels may be bicubic
   kGlowUnit = 11,    // the picture that a surface shines with
   kSurfaceUnit = 0,  // of bright lights: what is seen
   kTakenUnit = 1,    // what movers take of them

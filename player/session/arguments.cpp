@@ -103,14 +103,6 @@ std::vector<Option> picture_options(PlayArguments& out) {
        "Draw only what may be seen from where the eye stands, where the pack knows it; off: all that lies in the view, "
        "to compare with",
        choice(out.frame.visible_sets, kSwitch), Use::kRare, "pvs"},
-      {"--lightmap-filter", kPicture,
-       "Light between texels: from four of them, or smoother from sixteen by a cubic B-spline; beside a chart's border "
-       "and in finer cells from four. Not of a pack with vertex colours",
-       choice(out.frame.lightmap_filter, kLightmapFilters), Use::kRare, "lightmap_filter"},
-      {"--no-mipmaps", kPicture,
-       "Textures at full resolution at each pixel's centre, as a ray tracer without antialiasing samples them: for "
-       "comparing frames",
-       flag(out.frame.mipmaps, false), Use::kRare, "mipmaps"},
       {"--samples", kPicture, "Samples of a pixel: edges are smooth from 4 on; as many as the device has. 1 is fastest",
        number(out.frame.samples, 1, 64), Use::kRare, "samples"},
   };
@@ -125,15 +117,8 @@ std::vector<Option> mover_options(PlayArguments& out) {
       {"--mover-lights", kMovers,
        "How the brightest lights shine on movers: by pixel with shadows, without them, or in harmonics as other light",
        choice(out.frame.mover_lights, kMoverLights)},
-      {"--light-points", kMovers,
-       "Points of a bright light that movers' shadow maps are taken from, at most: lights that look small take fewer",
-       number(out.frame.light_points, 1, 16)},
       {"--shade", kMovers, "Lights that stand for light from everywhere, in which movers throw shade; 0: no such shade",
        number(out.frame.shade.lights, 0, kMostShadeLights), Use::kRare},
-      {"--shade-map", kMovers, "Texels a side of a light's map of the movers",
-       number(out.frame.shade.map_side, 16, 1024), Use::kRare},
-      {"--shade-pixels", kMovers, "Where it is found: at half of the frame's width and height, or at all pixels",
-       choice(out.frame.shade.every_pixel, kShadePixels), Use::kRare},
   };
 }
 
@@ -231,8 +216,6 @@ std::vector<Option> window_options(PlayArguments& out) {
        "May "
        "be repeated offscreen; all: every camera of the pack",
        texts(out.cameras, "NAME|N|PATH@S|ex,ey,ez,tx,ty,tz|all"), Use::kEveryday},
-      {"--panel", kWindow, "Open the panel at once: brightness, quality, times, what is under the pointer",
-       flag(out.panel), Use::kRare},
       {"--log-frames", kWindow, "A line on stderr whenever the window shows something else: for scripts that drive it",
        flag(out.log_frames)},
       {"--quality", kWindow,
@@ -248,7 +231,6 @@ std::vector<Option> window_options(PlayArguments& out) {
        "it "
        "is, the rest coarser or not at all. Without it: no limit",
        gpu_memory(out.gpu_memory), Use::kRare, "gpu_memory"},
-      {"--gl-debug", kDevice, "Print the messages of the OpenGL driver", flag(out.gl_debug)},
   };
 }
 

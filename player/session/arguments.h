@@ -60,11 +60,9 @@ struct PlayArguments {
   LensSettings lens;
   std::string stats;                    // a file for what the frames cost
   std::uint64_t gpu_memory = kNoLimit;  // bytes of images on the device
-  bool panel = false;
-  bool log_frames = false;  // tell scripts what the window shows
+  bool log_frames = false;              // tell scripts what the window shows
   Quality quality = Quality::kAutomatic;
   float eye_height_m = 0;  // of people over the floors; 0: as the pack has it
-  bool gl_debug = false;
 
   // Alone: light that is measured, or kept as .exr, is not rounded to half floats.
   bool makes_pictures() const {

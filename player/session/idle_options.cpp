@@ -41,10 +41,6 @@ const char* no_mover_shadows(const Pack& pack, const PlayArguments& a) {
   return a.frame.mover_lights == MoverLights::kShadowed ? nullptr : "--mover-lights leaves shadows out";
 }
 
-const char* no_shade(const Pack& pack, const PlayArguments& a) {
-  return a.frame.shade.lights == 0 && !pack.movers.empty() ? "--shade 0 draws none" : no_mover_shadows(pack, a);
-}
-
 // In a window lamps can be dragged.
 const char* no_moved_lamps(const Pack& pack, const PlayArguments& a) {
   if (pack.light_groups.empty()) return "the pack has no light groups, so its lamps cannot be moved";
@@ -78,17 +74,6 @@ const Rule kRules[] = {
        return a.output.empty() || std::filesystem::path(a.output).has_extension() ? "it is of files in a folder"
                                                                                   : nullptr;
      }},
-    {"--light-points", no_mover_shadows},
-    {"--lightmap-filter",
-     [](const Pack& pack, const PlayArguments&) {
-       return pack.lightmaps.empty() ? "the pack has no lightmap" : nullptr;
-     }},
-    {"--live-bounces", no_moved_lamps},
-    {"--live-direct",
-     [](const Pack& pack, const PlayArguments& a) {
-       return a.frame.live.lights.indirect == LiveIndirect::kLights ? no_moved_lamps(pack, a)
-                                                                    : "it is of --live-indirect lights";
-     }},
     {"--live-indirect", no_moved_lamps},
     {"--live-lights", no_moved_lamps},
     {"--log-frames", no_window},
@@ -98,12 +83,7 @@ const Rule kRules[] = {
        return draws_maps(pack, a) ? nullptr : "--reflections draws none of them";
      }},
     {"--mover-lights", no_movers},
-    {"--no-mipmaps",
-     [](const Pack& pack, const PlayArguments&) {
-       return pack.textures.empty() && pack.normal_textures.empty() ? "the pack has no textures" : nullptr;
-     }},
     {"--orders", no_planar_reflections},
-    {"--panel", no_window},
     {"--pvs",
      [](const Pack& pack, const PlayArguments&) {
        return pack.visible_sets.empty() ? "the pack does not know what is seen from where" : nullptr;
@@ -116,8 +96,6 @@ const Rule kRules[] = {
                                             : nullptr;
      }},
     {"--shade", no_mover_shadows},
-    {"--shade-map", no_shade},
-    {"--shade-pixels", no_shade},
     {"--time",
      [](const Pack& pack, const PlayArguments&) {
        const auto moves = [](const auto& one) { return !one.keys.empty(); };

@@ -14,10 +14,6 @@ std::vector<Option> live_options(const char* group, LiveSettings& out) {
        "Who brings a moved lamp's bounced light: rays from texel to texel, or some of the lights, where its light "
        "bounces (Keller's instant radiosity)",
        choice(out.lights.indirect, kLiveIndirect), Use::kRare, "live_indirect"},
-      {"--live-direct", group, "With --live-indirect lights: the share of lights that are on the lamp itself",
-       number(out.lights.direct_share, 0, 1), Use::kRare, "live_direct"},
-      {"--live-bounces", group, "Bounces of a moved lamp's light, 0: its direct light alone. Default: 16, of lights 3",
-       number(out.lights.bounces, 0, kMostLiveBounces), Use::kRare, "live_bounces"},
   };
 }
 

@@ -20,13 +20,9 @@ inline constexpr Named<Reflections> kReflections[] = {{"chosen", Reflections::kC
                                                       {"mesh", Reflections::kMesh},
                                                       {"off", Reflections::kOff}};
 inline constexpr Named<Blur> kBlurs[] = {{"distance", Blur::kDistance}, {"off", Blur::kOff}};
-inline constexpr Named<LightmapFilter> kLightmapFilters[] = {{"bicubic", LightmapFilter::kBicubic},
-                                                             {"bilinear", LightmapFilter::kBilinear}};
 inline constexpr Named<MoverLights> kMoverLights[] = {{"harmonics", MoverLights::kHarmonics},
                                                       {"shadowed", MoverLights::kShadowed},
                                                       {"unshadowed", MoverLights::kUnshadowed}};
-
-inline constexpr Named<bool> kShadePixels[] = {{"all", true}, {"half", false}};
 
 inline constexpr Named<LiveIndirect> kLiveIndirect[] = {{"lights", LiveIndirect::kLights},
                                                         {"texels", LiveIndirect::kTexels}};

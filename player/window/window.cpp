@@ -68,7 +68,6 @@ class Loop {
     session_.curve = arguments.curve;
     session_.moves = session_.moves_at_start = arguments.moves;
     session_.manual_ev100 = arguments.ev100;
-    session_.panel = arguments.panel;
     session_.path = std::move(opened.path);
     session_.comparison.divider = arguments.divider;
     session_.comparison.first = arguments.pack;
@@ -358,7 +357,6 @@ Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const s
                       Clock::time_point started) {
   ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
-  if (arguments.gl_debug) gpu::enable_debug_output(device);
   Opened opened;
   ORIEL_TRY(opened.scene, GpuScene::create(std::move(pack), device, {true, arguments.gpu_memory}));
   const Pack& known = opened.scene->pack();

@@ -63,54 +63,9 @@ vec3 lightmap_at(vec2 uv) {
   return mix(sum / float(4 * around), light, clamp(faded, 0.0, 1.0));
 }
 
-#ifdef BICUBIC
-uniform sampler2D u_inner;  // 1 at texels that are of one chart with all within two texels
-
-// How much of the light at a place is the spline's: all where the four texels around are inner ones and no cell that
-// touches them is finer, 0 where it would read another chart's texels, without a step between.
-float bicubic_share(vec2 uv, vec2 size) {
-  if (vec2(textureSize(u_inner, 0)) != size) return 0.0;  // a page that is shown coarser
-  float share = texture(u_inner, uv).r;
-  if (!u_detailed || share == 0.0) return share;
-  vec2 at = clamp(uv * size - 0.5, vec2(0.0), size - 1.0);
-  ivec2 corner = ivec2(at);
-  vec4 plain = vec4(1.0);  // texels at (0, 0), (1, 0), (0, 1), (1, 1) of the cell
-  for (int j = -1; j <= 1; ++j)
-    for (int i = -1; i <= 1; ++i) {
-      ivec2 cell = clamp(corner + ivec2(i, j), ivec2(0), ivec2(size) - 1);
-      if (texelFetch(u_cells, cell, 0).r == 0u) continue;
-      bvec2 lower = bvec2(i <= 0, j <= 0), upper = bvec2(i >= 0, j >= 0);
-      plain *= 1.0 - vec4(lower.x && lower.y, upper.x && lower.y, lower.x && upper.y, upper.x && upper.y);
-    }
-  vec4 inner = vec4(texelFetch(u_inner, corner, 0).r, texelFetch(u_inner, corner + ivec2(1, 0), 0).r,
-                    texelFetch(u_inner, corner + ivec2(0, 1), 0).r, texelFetch(u_inner, corner + ivec2(1, 1), 0).r);
-  vec4 kept = plain * inner;
-  vec2 f = at - vec2(corner);
-  return mix(mix(kept.x, kept.y, f.x), mix(kept.z, kept.w, f.x), f.y);
-}
-
-// A uniform cubic B-spline over sixteen texels: of four places between texels (Sigg and Hadwiger 2005).
-vec3 spline_light(vec2 uv, vec2 size) {
-  vec2 at = uv * size - 0.5;
-  vec2 corner = floor(at), f = at - corner, g = 1.0 - f;
-  vec2 w0 = g * g * g / 6.0, w3 = f * f * f / 6.0;
-  vec2 w1 = 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), w2 = 2.0 / 3.0 - g * g * (1.0 - 0.5 * g);
-  vec2 first = (corner - 0.5 + w1 / (w0 + w1)) / size, second = (corner + 1.5 + w3 / (w2 + w3)) / size;
-  vec2 share = w2 + w3;
-  return mix(mix(textureLod(u_lightmap, first, 0.0).rgb, textureLod(u_lightmap, vec2(second.x, first.y), 0.0).rgb, share.x),
-             mix(textureLod(u_lightmap, vec2(first.x, second.y), 0.0).rgb, textureLod(u_lightmap, second, 0.0).rgb, share.x),
-             share.y);
-}
-#endif
-
 vec3 baked_light() {
   vec2 uv = lightmap_uv(v_lightmap_uv);
-  vec3 light = lightmap_at(uv);
-#ifdef BICUBIC
-  vec2 size = vec2(textureSize(u_lightmap, 0));
-  light = mix(light, spline_light(uv, size), bicubic_share(uv, size));
-#endif
-  return light * u_lightmap_scale;
+  return lightmap_at(uv) * u_lightmap_scale;
 }
 
 // Lightmaps hold the light of fronts: a back that is lit is a surface of its own.

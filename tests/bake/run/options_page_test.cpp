@@ -107,8 +107,8 @@ TEST_F(Options, TheNearestIsNamedAndRareOnesAreInHelpAll) {
   EXPECT_EQ(code_, 1);
   const std::string help = run("oriel-bake --help"), all = run("oriel-bake --help-all");
   EXPECT_NE(help.find("--texel "), std::string::npos);
-  EXPECT_EQ(help.find("--resolution "), std::string::npos);
-  EXPECT_NE(all.find("--resolution "), std::string::npos);
+  EXPECT_EQ(help.find("--bounces "), std::string::npos);
+  EXPECT_NE(all.find("--bounces "), std::string::npos);
   EXPECT_NE(all.find("Exit codes"), std::string::npos);
 }
 

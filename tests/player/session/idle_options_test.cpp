@@ -12,10 +12,10 @@ namespace {
 
 // They decide what is done, or are refused where they would do nothing.
 const std::set<std::string> kNeverIdle = {
-    "--accumulate", "--aperture", "--camera",   "--compare", "--focus",       "--fps",     "--frames",   "--gl-debug",
-    "--gpu-memory", "--hour",     "--json",     "--light",   "--lights",      "--list",    "--max-flip", "--move",
-    "--offscreen",  "--output",   "--panorama", "--path",    "--quality",     "--samples", "--show",     "--shutter",
-    "--size",       "--smooth",   "--split",    "--stats",   "--supersample", "--video"};
+    "--accumulate", "--aperture", "--camera", "--compare",     "--focus",   "--fps",      "--frames",  "--gpu-memory",
+    "--hour",       "--json",     "--light",  "--lights",      "--list",    "--max-flip", "--move",    "--offscreen",
+    "--output",     "--panorama", "--path",   "--quality",     "--samples", "--show",     "--shutter", "--size",
+    "--smooth",     "--split",    "--stats",  "--supersample", "--video"};
 
 Pack pack_with_all() {
   Pack pack = testing::tiny_mapped_pack();
@@ -51,25 +51,19 @@ void one_file(PlayArguments& a) {
 void harmonics(PlayArguments& a) {
   a.frame.mover_lights = MoverLights::kHarmonics;
 }
-void no_shade_lights(PlayArguments& a) {
-  a.frame.shade.lights = 0;
-}
 void no_reflections(PlayArguments& a) {
   a.frame.reflections = Reflections::kOff;
 }
 const std::map<std::string, Mode> kIdleIn = {
-    {"--blur", no_reflections}, {"--exposure", light_file},       {"--eye-height", offscreen},
-    {"--format", one_file},     {"--light-points", harmonics},    {"--log-frames", offscreen},
-    {"--maps", no_reflections}, {"--orders", no_reflections},     {"--panel", offscreen},
-    {"--shade", harmonics},     {"--shade-map", no_shade_lights}, {"--shade-pixels", no_shade_lights},
-    {"--tonemap", light_file}};
+    {"--blur", no_reflections},   {"--exposure", light_file},  {"--eye-height", offscreen},
+    {"--format", one_file},       {"--log-frames", offscreen}, {"--maps", no_reflections},
+    {"--orders", no_reflections}, {"--shade", harmonics},      {"--tonemap", light_file}};
 
 TEST(IdleOptions, AreToldOfWhereTheyDoNothing) {
   const Pack all = pack_with_all();
   for (const std::string& name : idle_option_names()) {
     PlayArguments effective;
     if (name == "--format") effective.output = "folder";
-    if (name == "--live-direct") effective.frame.live.lights.indirect = LiveIndirect::kLights;
     EXPECT_FALSE(is_idle(name, all, effective)) << name;
     const auto mode = kIdleIn.find(name);
     PlayArguments idle;
