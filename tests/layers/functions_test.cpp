@@ -24,7 +24,7 @@ const std::set<std::string> kExempt = {
 };
 
 // Lists, an entry a line: to divide them would only hide their end.
-const std::set<std::string> kLists = {"radiosity_options"};
+const std::set<std::string> kLists = {};
 
 struct Token {
   std::string text;

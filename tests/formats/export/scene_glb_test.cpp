@@ -187,7 +187,7 @@ TEST(ShownPage, IsAlbedoTimesIrradianceOverPi) {
 // R = 1 - √cosθ has the mean ∫ 2 c (1 - √c) dc = 1/5 over the hemisphere, and takes its share of the diffuse light.
 TEST(ShownPage, ReflectsTheLightAround) {
   Pack pack;
-  pack.fresnel_maps.push_back({0.1f, {Vec3(1, 0.5f, 0), Vec3(0)}, {}, 0, {}});
+  pack.fresnel_maps.push_back({0.1f, {Vec3(1, 0.5f, 0), Vec3(0)}, {}});
   pack.materials.resize(2);
   for (Material& m : pack.materials) m.fresnel_map = 0, m.base_color = Vec3(0.5f);
   pack.materials[1].metallic = 1;
