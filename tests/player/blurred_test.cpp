@@ -32,7 +32,7 @@ Camera camera_at(const Vec3& eye, const Vec3& target) {
   return look_at(eye, target, 1.2f);
 }
 
-constexpr int kWidth = 480, kHeight = 360;
+constexpr int kBlurredWidth = 480, kBlurredHeight = 360;
 
 // Without maps; materials 1 and 2 are red and blue lamps.
 Pack pack_with_lamps() {
@@ -48,13 +48,13 @@ class Blurred : public FrameTest {
   Picture draw_mk(const Pack& pack, const Camera& camera) {
     FrameOptions options;
     options.show = Show::kMK;
-    return draw(pack, camera, kWidth, kHeight, options);
+    return draw(pack, camera, kBlurredWidth, kBlurredHeight, options);
   }
   // In the reflector's last pixels of each row.
   static void expect_red_feet(const Picture& p) {
     int feet = 0;
-    for (int y = kHeight / 2 - 40; y <= kHeight / 2 + 40; y += 8) {
-      int x = kWidth - 1;
+    for (int y = kBlurredHeight / 2 - 40; y <= kBlurredHeight / 2 + 40; y += 8) {
+      int x = kBlurredWidth - 1;
       while (x > 0 && p.at(x, y) == Vec3(0)) --x;
       for (int i = 0; i < 4; ++i, ++feet) EXPECT_LT(p.at(x - i, y).y, 0.05f * kGreen.y) << x - i << "," << y;
     }
@@ -71,9 +71,9 @@ TEST_F(Blurred, WhatIsNearStaysSharpBesideWhatIsFar) {
     return Seen{p.x + d.x * (z / d.z) > 0 ? kRed : kGreen, z};
   });
   const Picture p = draw_mk(pack, camera_at({0, 0, 1}, {0, 0, 0}));
-  const auto share = [&](int x, int y) { return p.at(kWidth / 2 + x, kHeight / 2 + y).x / kRed.x; };
-  const float pixels = 0.5f * kHeight / std::tan(0.6f);  // a tangent
-  for (const int y : {-20, 0, 20}) {                     // the near band's half is 0.2 * pixels = 52
+  const auto share = [&](int x, int y) { return p.at(kBlurredWidth / 2 + x, kBlurredHeight / 2 + y).x / kRed.x; };
+  const float pixels = 0.5f * kBlurredHeight / std::tan(0.6f);  // a tangent
+  for (const int y : {-20, 0, 20}) {                            // the near band's half is 0.2 * pixels = 52
     EXPECT_GT(share(4, y), 0.97f) << y;
     EXPECT_LT(share(-5, y), 0.03f) << y;
   }
@@ -97,8 +97,8 @@ TEST_F(Blurred, WhatIsHiddenBlursIntoWhatIsSeen) {
   const Picture behind = draw_mk(pack, camera);
   int seen = 0, hidden = 0;
   float worst = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kBlurredHeight; ++y)
+    for (int x = 0; x < kBlurredWidth; ++x) {
       if (open.at(x, y) == Vec3(0)) continue;
       if (behind.at(x, y) == Vec3(0)) {
         ++hidden;
@@ -133,8 +133,8 @@ TEST_F(Blurred, BesideAWallAtItsEdgeAReflectorShowsNothingOfWhatLiesBehind) {
   camera.up = {0.3f, 1, 0};  // its edge is no edge of the image
   const Picture p = draw_mk(pack, camera);
   float red = 0, blue = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) red = std::max(red, p.at(x, y).x), blue = std::max(blue, p.at(x, y).z);
+  for (int y = 0; y < kBlurredHeight; ++y)
+    for (int x = 0; x < kBlurredWidth; ++x) red = std::max(red, p.at(x, y).x), blue = std::max(blue, p.at(x, y).z);
   EXPECT_GT(red, 0.9f * kRed.x);
   EXPECT_LT(blue, 0.01f * kRed.x);
 }
@@ -147,7 +147,7 @@ TEST_F(Blurred, BesideAWallAtItsEdgeAReflectorShowsNothingOfTheSky) {
   const Picture p = draw_mk(pack, camera_at({-0.9f, 0, 1}, {0.8f, 0, 0}));
   expect_red_feet(p);
   float green = 0;
-  for (int x = 0; x < kWidth; ++x) green = std::max(green, p.at(x, kHeight / 2).y);
+  for (int x = 0; x < kBlurredWidth; ++x) green = std::max(green, p.at(x, kBlurredHeight / 2).y);
   EXPECT_GT(green, 0.9f * kGreen.y);
 }
 
@@ -165,8 +165,8 @@ TEST_F(Blurred, AFreeEdgeChangesNothing) {
     if (p.z == 0) p.x = std::min(p.x, -0.2f);
   const Picture part = draw_mk(pack, camera);
   int seen = 0, off = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kBlurredHeight; ++y)
+    for (int x = 0; x < kBlurredWidth; ++x) {
       if (part.at(x, y) == Vec3(0)) continue;
       ++seen;
       off += glm::length(part.at(x, y) - whole.at(x, y)) > 0.02f * kRed.x;
