@@ -18,9 +18,7 @@ constexpr int kMost = 5;
 constexpr int kMostLines = 60;
 
 // Kernels, whose parameters are the formula's or the loop's, and what others call by a signature of theirs.
-const std::set<std::string> kExempt = {
-    "print_message",  // player/gpu: OpenGL's
-};
+const std::set<std::string> kExempt{};
 
 struct Token {
   std::string text;
