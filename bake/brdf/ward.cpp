@@ -48,7 +48,7 @@ double Phong::f_cos(const DVec3&, const DVec3& wi, const DVec3& h) const {
   return wi.z > 0 ? lobe(h.z) * wi.z : 0;
 }
 
-Phong published_phong(double alpha) {
+Phong cited_phong(double alpha) {
   const double exponent = 1.999 / (alpha * alpha);
   return {exponent, 0.0398 * exponent};
 }
@@ -74,7 +74,7 @@ PhongFit fit_phong(double alpha) {
     if (std::abs(step_n) < 1e-12 * n && std::abs(step_g) < 1e-12) break;
   }
   const Phong phong{n, g * peak};
-  return {phong, chi_square(ward, phong), chi_square(ward, published_phong(alpha))};
+  return {phong, chi_square(ward, phong), chi_square(ward, cited_phong(alpha))};
 }
 
 }  // namespace oriel

@@ -31,13 +31,13 @@ struct Phong {
   double f_cos(const DVec3& wo, const DVec3& wi, const DVec3& h) const;
 };
 
-// The published fit to Ward's lobe: exponent 1.999 / α², gain 0.0398 times the exponent.
-Phong published_phong(double alpha);
+// The fit to Ward of 1997's lobe: exponent 1.999 / α², gain 0.0398 times the exponent.
+Phong cited_phong(double alpha);
 
 struct PhongFit {
   Phong phong;
-  double chi2 = 0;            // Σ (ward - phong)² / ward over the angles fitted, both relative to Ward's peak
-  double published_chi2 = 0;  // of the published constants on the same angles
+  double chi2 = 0;        // Σ (ward - phong)² / ward over the angles fitted, both relative to Ward's peak
+  double cited_chi2 = 0;  // of the constants of 1997 on the same angles
 };
 // The exponent and gain with the least squared difference from Ward's lobe over δ in [0°, 90°], by Gauss and Newton.
 PhongFit fit_phong(double alpha);

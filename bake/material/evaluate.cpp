@@ -23,7 +23,7 @@ Lobe lobe_of(BrdfModel model, double alpha) {
             [=](const DVec3& h) { return facets.d(h); }};
   }
   if (model == BrdfModel::kPhong) {
-    const Phong phong = published_phong(alpha);
+    const Phong phong = cited_phong(alpha);
     return {{[=](const DVec3& wo, const DVec3& wi, const DVec3& h) { return phong.f_cos(wo, wi, h); }, alpha},
             [=](const DVec3& h) { return phong.lobe(h.z); }};
   }

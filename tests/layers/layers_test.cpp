@@ -179,6 +179,26 @@ TEST(Layers, FoldersOfSourcesAreInTheTable) {
     }
 }
 
+// What of a source is code: comments may cite where something comes from.
+std::string without_comments(const fs::path& path) {
+  std::ifstream in(path);
+  std::string code;
+  for (std::string line; std::getline(in, line);) code += line.substr(0, line.find("//")) + "\n";
+  return code;
+}
+
+TEST(Layers, MethodsOfOthersAreInTheStudyAlone) {
+  const std::regex names("published|bastos|barczak|diefenbach|herf1997|herf_|udeshi", std::regex::icase);
+  EXPECT_TRUE(std::regex_search("Method::kBastos1999", names));
+  for (const char* top : {"formats", "bake", "player", "preview", "scenes", "trade", "shaders", "web/src"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top))
+      if (entry.is_regular_file()) {
+        const std::string code = without_comments(entry.path());
+        std::smatch found;
+        EXPECT_FALSE(std::regex_search(code, found, names)) << entry.path() << ": " << found.str();
+      }
+}
+
 TEST(Layers, FoldersOfTheTableAreThere) {
   for (const auto& [folder, allowed] : kArrows) {
     EXPECT_TRUE(fs::is_directory(kRoot / folder)) << folder;

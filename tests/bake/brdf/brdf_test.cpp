@@ -183,7 +183,7 @@ TEST(Reciprocity, OfAllLobes) {
       return Ward{norm, 0.2}.f_cos(wo, wi, h);
     });
   lobes.emplace_back(
-      [](const DVec3& wo, const DVec3& wi, const DVec3& h) { return published_phong(0.2).f_cos(wo, wi, h); });
+      [](const DVec3& wo, const DVec3& wi, const DVec3& h) { return cited_phong(0.2).f_cos(wo, wi, h); });
   for (const LobeFunction& f : lobes)
     for (const double a : {0.01, 0.3, 0.9})
       for (const double b : {0.05, 0.5, 1.0})
@@ -323,8 +323,8 @@ TEST(PhongFit, ApproachesTheAnalyticLimit) {
   for (const double alpha : {0.02, 0.1, 0.3}) {
     const PhongFit fit = fit_phong(alpha);
     std::printf("alpha %.2f: exponent %.5f/alpha^2, gain %.6f exponent, chi2 %.3g (published constants %.3g)\n", alpha,
-                fit.phong.exponent * alpha * alpha, fit.phong.gain / fit.phong.exponent, fit.chi2, fit.published_chi2);
-    EXPECT_LT(fit.chi2, fit.published_chi2);
+                fit.phong.exponent * alpha * alpha, fit.phong.gain / fit.phong.exponent, fit.chi2, fit.cited_chi2);
+    EXPECT_LT(fit.chi2, fit.cited_chi2);
   }
   const PhongFit narrow = fit_phong(0.005);
   EXPECT_NEAR(narrow.phong.exponent * 0.005 * 0.005, 2, 1e-4);

@@ -134,7 +134,7 @@ std::vector<FunctionReading> ward_readings(const Suite& suite) {
       const double ward = values[i].get<double>(), phong = points["expected"]["phong_fit"][alpha][i].get<double>();
       // Printed with ten decimals.
       all.push_back({"WPH-02 ward " + alpha, Ward{WardNorm::kOriginal, a}.lobe(cosine), ward, rel * ward + 1e-10});
-      all.push_back({"WPH-02 phong " + alpha, published_phong(a).lobe(cosine), phong, rel * phong + 1e-10});
+      all.push_back({"WPH-02 phong " + alpha, cited_phong(a).lobe(cosine), phong, rel * phong + 1e-10});
     }
   return all;
 }
