@@ -41,14 +41,30 @@ BakedMethod baked_mirror(const std::function<Seen(const Vec2&, const Vec3&)>& se
   return out;
 }
 
+void add_study_shaders() {
+  static const bool added = [] {
+    gpu::add_shader_sources(shader_sources());
+    return true;
+  }();
+  ASSERT_TRUE(added);
+}
+
+TEST(ImageMethodShaders, CompileInBothDialects) {
+  add_study_shaders();
+  for (const gpu::Dialect dialect : {gpu::Dialect::kDesktop330, gpu::Dialect::kEs300}) {
+    const auto context = gpu::HeadlessContext::create(dialect);
+    ASSERT_TRUE(context) << context.error().text();
+    for (const char* name : {"bastos1999_points", "screen_bastos1999_kernel", "bastos1999_compose"}) {
+      const auto program = gpu::Program::create(name, dialect);
+      EXPECT_TRUE(program) << program.error().text();
+    }
+  }
+}
+
 class ImageMethod : public FrameTest {
  protected:
   void SetUp() override {
-    static const bool added = [] {
-      gpu::add_shader_sources(shader_sources());
-      return true;
-    }();
-    ASSERT_TRUE(added);
+    add_study_shaders();
     FrameTest::SetUp();
   }
   Picture draw_method(const BakedMethod& baked, const Camera& camera, const IVec2& size, FrameOptions options = {},
