@@ -58,8 +58,8 @@ std::vector<std::pair<int, std::string>> sentences(const std::string& paragraph)
 
 std::vector<fs::path> pages() {
   std::vector<fs::path> out = {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"};
-  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
-    if (entry.path().extension() == ".md") out.push_back("docs" / entry.path().filename());
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs"))
+    if (entry.path().extension() == ".md") out.push_back(fs::relative(entry.path(), kRoot));
   return out;
 }
 
@@ -99,6 +99,17 @@ TEST(Docs, LinesFitAScreen) {
       EXPECT_LE(characters, kWidest) << page << ":" << number;
     }
   }
+}
+
+// What nobody sees is not kept.
+TEST(Docs, PicturesAreShown) {
+  std::string all;
+  for (const fs::path& page : pages()) {
+    std::ifstream in(kRoot / page);
+    all.append(std::istreambuf_iterator<char>(in), {});
+  }
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs/pictures"))
+    EXPECT_NE(all.find(entry.path().filename().string()), std::string::npos) << entry.path();
 }
 
 TEST(Docs, LinksLeadToFiles) {
