@@ -58,7 +58,7 @@ std::vector<Error> SceneImages::finish(Clock::time_point until) {
   }
 }
 
-void SceneImages::aim(const Vec3& eye, const Frustum& frustum, const std::vector<std::uint8_t>* seen) {
+void SceneImages::prioritise(const Vec3& eye, const Frustum& frustum, const std::vector<std::uint8_t>* seen) {
   std::vector<float> ranks(items_.size(), 1e9f);
   for (const ImageUse& use : uses_) {
     float& rank = ranks[index_of(use.image)];

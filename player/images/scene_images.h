@@ -55,7 +55,7 @@ class SceneImages {
   // All that is wanted, now or until then; the first errors otherwise.
   std::vector<Error> finish(Clock::time_point until = Clock::time_point::max());
   // What is near or in view of the eye comes first, from now on. seen: by group.
-  void aim(const Vec3& eye, const Frustum& frustum, const std::vector<std::uint8_t>* seen);
+  void prioritise(const Vec3& eye, const Frustum& frustum, const std::vector<std::uint8_t>* seen);
   // Brings what was made ready meanwhile to the device, for about so long, and lets more be made ready. Where nothing
   // is left to do in the background, compares checksums of what nobody wanted. Errors of images and sections, each
   // once.

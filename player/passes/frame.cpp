@@ -129,9 +129,9 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
                                     FrameExtension* extension) {
   in_window_ = drew_movers_ = false;
   // Light of moved lamps is that of the textures that are there.
-  if (!options.live.in_background && !options.lamps.empty()) ORIEL_TRY_VOID(scene.aim(view));
+  if (!options.live.in_background && !options.lamps.empty()) ORIEL_TRY_VOID(scene.load_images(view));
   ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
-  if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
+  if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.load_images(view));
   scene.use_mipmaps(options.mipmaps);
   const bool halves = options.halves && scene.fits_halves();
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples, halves));

@@ -211,11 +211,11 @@ Result<bool> GpuScene::bring_surround_map(std::uint32_t index) {
   return images_->has(name);
 }
 
-Status GpuScene::aim(const View& view) {
+Status GpuScene::load_images(const View& view) {
   if (!images_->in_background() && images_->state().limit == kNoLimit) return {};  // all is there
   const SeenMask seen = view.orthographic ? std::nullopt : seen_from(Vec3(view.eye));
   images_->begin_wants();
-  images_->aim(Vec3(view.eye), make_frustum(view.clip_from_pack), seen ? &*seen : nullptr);
+  images_->prioritise(Vec3(view.eye), make_frustum(view.clip_from_pack), seen ? &*seen : nullptr);
   return images_->in_background() ? Status() : first_of(advance_all());
 }
 

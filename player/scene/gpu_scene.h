@@ -82,7 +82,7 @@ class GpuScene {
 
   // Before a frame of this view: what it shows comes first, and within a limit as fine as there is room for. Not in the
   // background all of that is there afterwards, but for maps. Errors of images.
-  Status aim(const View& view);
+  Status load_images(const View& view);
   SceneImages& images() { return *images_; }
   const SceneImages& images() const { return *images_; }
   // In the background, between frames: brings images to the device for about so long. Errors, each once.

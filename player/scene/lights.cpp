@@ -14,7 +14,7 @@ BakedLamps::BakedLamps(const Pack& pack) : sky_(pack.sky) {
   for (const LightProbe& probe : pack.light_field.probes) harmonics_.push_back(probe.sh);
 }
 
-void BakedLamps::shine(std::span<const Vec3> factors, Pack& pack) const {
+void BakedLamps::scale_light(std::span<const Vec3> factors, Pack& pack) const {
   for (std::size_t g = 0; g < factors.size(); ++g) {
     const LightGroup& group = pack.light_groups[g];
     for (const std::uint32_t m : group.materials) pack.materials[m].emission = factors[g] * emission_[m];

@@ -18,7 +18,7 @@ class BakedLamps {
   // By group: its lamps shine so many times as they were baked, R, G, B. Changes the pack's emission, emitters, bright
   // lights, sky, and the harmonics of its probes by each group's share of them; not its lightmaps and maps. Factors of
   // 1 give what was baked to the bit.
-  void shine(std::span<const Vec3> factors, Pack& pack) const;
+  void scale_light(std::span<const Vec3> factors, Pack& pack) const;
   // By group: where its lamps are, from where they were baked. Changes the corners of the pack's emitters.
   void place(std::span<const MoverPose> poses, Pack& pack) const;
 

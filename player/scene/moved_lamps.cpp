@@ -57,7 +57,7 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
   std::vector<Vec3> before;  // by emitter
   for (const Emitter& e : pack_.emitters) before.push_back(e.radiance);
   const bool moves = places != lamps_;
-  baked_.shine(lights_, pack_);
+  baked_.scale_light(lights_, pack_);
   if (moves) move_lamps(places);
   bright_lights_ = placed_lights(pack_, lamps_);
   for (GpuReflector& r : reflectors_) list_emitters(r, pack_.reflectors[r.index], true);

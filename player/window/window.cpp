@@ -201,7 +201,7 @@ class Loop {
   // What the frame shows comes first. Some of it before the first frame: most packs are there then.
   void load_images() {
     if (seconds_since(aimed_) >= kAim_s) {
-      if (const Status aimed = scene_->aim(view_); !aimed) tell_failure(aimed.error());
+      if (const Status aimed = scene_->load_images(view_); !aimed) tell_failure(aimed.error());
       aimed_ = Clock::now();
     }
     const bool first = std::exchange(first_, false);

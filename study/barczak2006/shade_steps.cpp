@@ -103,7 +103,7 @@ Result<StepCost> ShadeSteps::draw(const View& view, const FrameOptions& options,
   const FrameContext context{*scene_, view, options, stats};
   StepCost cost;
   ORIEL_TRY_VOID(make_pictures(view));
-  ORIEL_TRY_VOID(scene_->aim(view));
+  ORIEL_TRY_VOID(scene_->load_images(view));
   const std::vector<PlacedMover> placed = place_movers(*scene_, options);
   const auto movers = std::span(placed).first(std::min<std::size_t>(placed.size(), BlockedLights::kMostMovers));
   draw_surfaces(context);

@@ -35,7 +35,7 @@ class Bench {
   // Frames until nothing is on its way.
   Status settle() {
     do {
-      ORIEL_TRY_VOID(scene_.aim(view_));
+      ORIEL_TRY_VOID(scene_.load_images(view_));
       if (const auto errors = scene_.advance(std::chrono::milliseconds(20)); !errors.empty())
         return tl::unexpected<Error>(errors.front());
       ORIEL_TRY_VOID(renderer_.render(scene_, view_, options_));

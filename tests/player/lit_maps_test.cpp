@@ -113,7 +113,7 @@ class LightsInMaps : public FrameTest {
   // Once nothing is on its way.
   Picture settle(GpuScene& scene, const FrameOptions& options) {
     for (int i = 0; i < 2000; ++i) {
-      EXPECT_TRUE(scene.aim(make_view(camera_of_map(), kWidth, kHeight, scene.bounds())));
+      EXPECT_TRUE(scene.load_images(make_view(camera_of_map(), kWidth, kHeight, scene.bounds())));
       EXPECT_TRUE(scene.advance(std::chrono::milliseconds(1)).empty());
       const Picture picture = draw(scene, options);
       EXPECT_FALSE(scene.has_live_news()) << "a frame shows all that has come";

@@ -91,7 +91,7 @@ class Loading : public FrameTest {
   std::vector<std::string> load(GpuScene& scene, std::vector<std::uint64_t>* used = nullptr) {
     std::vector<std::string> errors;
     for (int i = 0; i < 2000; ++i) {
-      EXPECT_TRUE(scene.aim(view(scene)));
+      EXPECT_TRUE(scene.load_images(view(scene)));
       for (const Error& error : scene.advance(std::chrono::microseconds(200))) errors.push_back(error.text());
       if (used != nullptr) used->push_back(scene.images().state().used);
       frame(scene);
@@ -139,7 +139,7 @@ TEST_F(Loading, TheFramesAreThoseOfAPackThatWasThereAtOnce) {
 
 TEST_F(Loading, WhatIsNearComesFirst) {
   const auto scene = scene_of(file_, {true, kNoLimit});
-  EXPECT_TRUE(scene->aim(view(*scene)));
+  EXPECT_TRUE(scene->load_images(view(*scene)));
   std::vector<std::uint32_t> order;  // in which pages came
   std::vector<bool> there(6);
   while (order.size() < 6) {
