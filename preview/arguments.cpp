@@ -57,6 +57,16 @@ std::vector<Option> effect_options(PreviewArguments& a) {
   };
 }
 
+// Why an option that was given changes nothing; null where it does.
+const char* idle_reason(const std::string& option, const PreviewArguments& a) {
+  if (a.offscreen && (option == "--frames" || option == "--pack")) return "--offscreen has no window";
+  if (a.output.extension() == ".exr" && (option == "--ev" || option == "--tonemap"))
+    return ".exr files hold light, not what is shown";
+  if (a.scene.import.sky_file.empty() && (option == "--sky-scale" || option == "--sky-rotation"))
+    return "--sky names no file";
+  return nullptr;
+}
+
 }  // namespace
 
 CommandLine preview_command_line(PreviewArguments& a, std::function<Status()> run) {
@@ -73,6 +83,9 @@ CommandLine preview_command_line(PreviewArguments& a, std::function<Status()> ru
   append(command.options, baked);
   command.settle = [&a, baked](const Given& given) -> Status {
     a.bake_options = given.words(baked);
+    for (const std::string& option : given.typed())
+      if (const char* reason = idle_reason(option, a))
+        fmt::print(stderr, "oriel-preview: {} has no effect: {}\n", option, reason);
     if (a.pack.empty()) a.pack = std::filesystem::path(a.scene.file).replace_extension(".oriel");
     if (!a.offscreen) return {};
     const auto ending = a.output.extension();

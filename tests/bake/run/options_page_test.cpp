@@ -112,6 +112,15 @@ TEST_F(Options, TheNearestIsNamedAndRareOnesAreInHelpAll) {
   EXPECT_NE(all.find("Exit codes"), std::string::npos);
 }
 
+TEST_F(Options, ThePreviewTellsOfThoseThatDoNothing) {
+  const std::string said =
+      run("oriel-preview none.glb --offscreen -o a.exr --frames 3 --pack b.oriel --ev 5 "
+          "--tonemap none --sky-scale 2 --sky-rotation 90 --passes 2");
+  for (const char* idle : {"--frames", "--pack", "--ev", "--tonemap", "--sky-scale", "--sky-rotation"})
+    EXPECT_NE(said.find(std::string(idle) + " has no effect: "), std::string::npos) << idle;
+  EXPECT_EQ(said.find("--passes has no effect"), std::string::npos);
+}
+
 // What get() tells, set() takes: else --print-options lists what cannot be asked for.
 TEST_F(Options, ValuesCanBeGivenAsTheyAreListed) {
   BakeOptions options = command_line_defaults();
