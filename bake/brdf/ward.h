@@ -31,7 +31,7 @@ struct Phong {
   double f_cos(const DVec3& wo, const DVec3& wi, const DVec3& h) const;
 };
 
-// The fit to Ward of 1997's lobe: exponent 1.999 / α², gain 0.0398 times the exponent.
+// Diefenbach and Badler's fit to Ward's lobe: exponent 1.999 / α², gain 0.0398 times the exponent.
 Phong cited_phong(double alpha);
 
 struct PhongFit {

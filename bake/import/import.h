@@ -19,7 +19,6 @@ struct ImportOptions {
   float sky_rotation_deg = 0;          // counter-clockwise seen from above
   std::optional<float> sun_angle_deg;  // angular diameter of every directional light, 0 to 180
   DayOptions day;                      // instead of a sky
-  int light_mirrors = 8;               // Scene::light_mirrors, 0 to 8
   std::vector<std::string> movers;     // names of nodes that move, beside those that the file marks or animates
   std::vector<MoverMove> moves;        // where movers and lamps are instead (move_nodes)
   double unit_m = 1;                   // metres that one unit of the file is. Light stays what it is on surfaces:

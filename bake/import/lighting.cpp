@@ -118,7 +118,6 @@ Status apply_lighting(const ImportOptions& options, gltf::MemoryBudget& budget, 
   ORIEL_TRY_VOID(load_sky(options, budget, out, context));
   ORIEL_TRY_VOID(load_profiles(options, budget, out, context));
   if (options.day.wanted) ORIEL_TRY_VOID(add_daylight(options.day, out.scene, context));
-  out.scene.light_mirrors = options.light_mirrors;
   if (!options.sun_angle_deg) return {};
   if (!(*options.sun_angle_deg >= 0 && *options.sun_angle_deg <= 180))
     return fail(ErrorCode::kUsage, "sun angle", "found {}, expected 0 to 180 degrees", *options.sun_angle_deg);

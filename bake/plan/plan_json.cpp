@@ -81,7 +81,7 @@ Json prediction_json(const Prediction& p) {
   for (const Component& c : p.components)
     components.push_back({{"name", c.name},
                           {"seconds", c.seconds},
-                          {"rays", c.rays},
+                          {"rays", c.rays > 0 ? Json(c.rays) : Json()},
                           {"bytes", c.bytes},
                           {"error", c.error < 0 ? Json() : Json(c.error)}});
   for (const Limit& l : p.limits)

@@ -205,12 +205,12 @@ std::uint64_t total_bytes(std::span<const ReflectorPlan> plans) {
   return bytes;
 }
 
-// Pixels get dearer until all fit: what is worth least for its pixels is left out or gets coarser first.
 std::string memory_line(std::uint64_t wanted, std::uint64_t allowed) {
   return fmt::format("radiance maps would take {:.1f} MiB of {:.1f} MiB allowed: ",
                      static_cast<double>(wanted) / (1 << 20), static_cast<double>(allowed) / (1 << 20));
 }
 
+// Pixels get dearer until all fit: what is worth least for its pixels is left out or gets coarser first.
 void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit, double price,
                 std::vector<ReflectorPlan>& plans, std::vector<std::string>& omitted) {
   const std::uint64_t wanted = total_bytes(plans);

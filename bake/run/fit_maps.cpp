@@ -13,6 +13,22 @@ constexpr std::uint32_t kTried = 8;       // by which a map's sides are divided 
 constexpr std::uint32_t kLeastSide = 16;  // of a map that is made smaller
 constexpr double kJudging = 0.3;          // of the seconds of planning: residual maps and held-out eyes
 
+// What capturing all surround maps takes, by a 64th of their texels.
+Result<double> surround_seconds(const BakedScene& baked, const FoundReflections& all, std::uint32_t paths,
+                                Context& context) {
+  const std::vector<bool> is_shiny = shiny_triangles(baked.accel.scene(), all);
+  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
+    return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
+  };
+  FoundCurvedReflectors curved = all.curved;
+  const double texels = make_coarser(1, curved.maps), tried = make_coarser(kTried, curved.maps);
+  if (!(tried > 0)) return 0;
+  const Trial trial(context);
+  const ElapsedTime clock;
+  ORIEL_TRY_VOID(capture_surroundings(baked.accel, curved, with_lobes_of(is_shiny, outgoing), context));
+  return texels / tried * clock.spent();
+}
+
 // Captures maps whose sides are divided: what all of them are likely to take.
 Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
   const FoundReflections& all = planned.all;
@@ -36,30 +52,12 @@ Status time_capture(const BakeOptions& options, const BakedScene& dark, Context&
     ORIEL_TRY_VOID(capture_maps({surroundings, with_lobes_of(is_curved, outgoing)}, context, maps));
   }
   const double planar_s = clock.spent() * planned.planar_pixels() / std::max(pixels, 1.0);
-  ORIEL_TRY(const SurroundCost surround, surround_cost(dark, all, paths, context));
-  planned.surround_s = surround.seconds;
+  ORIEL_TRY(planned.surround_s, surround_seconds(dark, all, paths, context));
   planned.capture_s = planar_s + planned.surround_s + kJudging * planned.seconds;
   return {};
 }
 
 }  // namespace
-
-Result<SurroundCost> surround_cost(const BakedScene& baked, const FoundReflections& all, std::uint32_t paths,
-                                   Context& context) {
-  const std::vector<bool> is_shiny = shiny_triangles(baked.accel.scene(), all);
-  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
-  };
-  FoundCurvedReflectors curved = all.curved;
-  const double texels = make_coarser(1, curved.maps), tried = make_coarser(kTried, curved.maps);
-  if (!(tried > 0)) return SurroundCost{};
-  std::atomic<std::uint64_t> rays{0};
-  const Trial trial(context);
-  const ElapsedTime clock;
-  ORIEL_TRY_VOID(capture_surroundings(baked.accel, curved, with_lobes_of(is_shiny, outgoing), {context, &rays}));
-  const double times = texels / tried;
-  return SurroundCost{times * clock.spent(), times * static_cast<double>(rays)};
-}
 
 void leave_out_maps(const Warning& why, PlannedReflections& planned) {
   planned.plan = {};

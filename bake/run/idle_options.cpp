@@ -14,8 +14,17 @@ const char* no_sky_file(const BakeOptions& o, const IdleFacts&) {
 }
 
 const char* no_movers(const BakeOptions& o, const IdleFacts& facts) {
-  if (!facts.movers) return "nothing in the scene moves";
-  return o.with_transfer ? nullptr : "--only leaves movers out";
+  if (!o.with_transfer) return "--only leaves movers out";
+  return facts.movers ? nullptr : "nothing in the scene moves";
+}
+
+const char* no_light_field(const BakeOptions& o, const IdleFacts& facts) {
+  if (!o.with_transfer) return "--only leaves movers out";
+  return facts.light_field ? nullptr : "nothing in the scene moves";
+}
+
+const char* paths_alone(const BakeOptions& o, const IdleFacts&) {
+  return o.radiosity.estimator == Estimator::kReference ? "--estimator reference does without" : nullptr;
 }
 
 const char* no_reflectors(const BakeOptions& o, const IdleFacts& facts) {
@@ -29,15 +38,15 @@ const char* no_maps(const BakeOptions& o, const IdleFacts& facts) {
 }
 
 const IdleRule kRules[] = {
+    {"--detail", paths_alone},
     {"--map-resolution", no_maps},
-    {"--max-reflectors", no_reflectors},
-    {"--memory", no_maps},
+    {"--memory", no_reflectors},
     {"--orders", no_maps},
-    {"--probe", no_movers},
+    {"--probe", no_light_field},
     {"--reflections", no_reflectors},
     {"--reuse-error",
      [](const BakeOptions&, const IdleFacts& facts) { return facts.cached ? nullptr : "there is no --cache"; }},
-    {"--sh-bands", no_movers},
+    {"--sh-bands", no_light_field},
     {"--sky-rotation", no_sky_file},
     {"--sky-scale", no_sky_file},
     {"--sun-angle",
@@ -49,6 +58,7 @@ const IdleRule kRules[] = {
        return o.ways == WaysWanted::kAuto ? no_reflectors(o, facts) : "--reflections decides";
      }},
     {"--transfer", no_movers},
+    {"--verify", paths_alone},
     {"--views", no_maps},
 };
 

@@ -10,11 +10,12 @@ namespace oriel {
 
 // What of a scene decides whether an option has an effect.
 struct IdleFacts {
-  bool suns = false;        // directional lights
-  bool movers = false;      // nodes that move
-  bool reflectors = false;  // planar or curved ones that eyes see
-  bool maps = false;        // radiance maps are planned
-  bool cached = false;      // there is a cache of earlier bakes
+  bool suns = false;         // directional lights
+  bool movers = false;       // nodes that move
+  bool light_field = false;  // they, or lamps that move, need the light around
+  bool reflectors = false;   // planar or curved ones that eyes see
+  bool maps = false;         // radiance maps are planned
+  bool cached = false;       // there is a cache of earlier bakes
 };
 
 // A line for each option of options.given that changes nothing, with the reason.

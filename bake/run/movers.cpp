@@ -34,8 +34,7 @@ void warn_about(const MoverReport& r, Context& context) {
                     r.name, 100 * r.coarse_share));
   if (r.compression_error > kMostLost)
     context.warning(
-        fmt::format("mover \"{}\": compression loses {:.2g} % of the transfer; --clusters {} would lose less", r.name,
-                    100 * r.compression_error, 32));
+        fmt::format("mover \"{}\": compression loses {:.2g} % of the transfer", r.name, 100 * r.compression_error));
 }
 
 class MoverBox {

@@ -111,11 +111,10 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it",
        quantity(o.planned.memory_bytes, "SIZE", parse_bytes, bytes_text), Use::kEveryday, "map_memory"},
       {"--only", kReflections,
-       "Bake only these, comma-separated: radiosity (always: all else shows its light), radiance (maps behind "
-       "reflectors), material (kernels), transfer (movers, which stand still without it)",
+       "Bake only these, comma-separated: radiosity (always: all else shows its light), radiance (all "
+       "reflectors, by geometry or maps), material (kernels), transfer (movers, which stand still without it)",
        parts(o), Use::kEveryday},
-      {"--max-reflectors", kReflections,
-       "Planar reflectors that get radiance maps, the most visible first; each costs memory and frame time",
+      {"--max-reflectors", kReflections, "Reflectors at most, the most visible first; each costs memory and frame time",
        number(o.reflectors.max_reflectors, 0, 4096), Use::kRare, "max_reflectors"},
       {"--eyes", kReflections,
        "Whose views texels and reflections are made for: walk (people on the floors that the cameras can walk to), box "

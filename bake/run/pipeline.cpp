@@ -102,7 +102,7 @@ class Bake {
   Status prepare() {
     ORIEL_TRY(prepared_, prepare_scene(options_, timed_, context_));
     BakeOptions layout = options_;
-    if (budget_.limited() && layout.atlas.time_limit_s <= 0) layout.atlas.time_limit_s = budget_.for_atlas();
+    if (budget_.limited()) layout.atlas.time_limit_s = budget_.for_atlas();
     ORIEL_TRY_VOID(lay_out_lightmap(layout, timed_, context_, prepared_, budget_.left()));
     result_.omissions = prepared_.omissions;
     for (const Surface& surface : scene().surfaces)
@@ -155,8 +155,12 @@ class Bake {
 
   void tell_idle_options(const PlannedReflections& planned) {
     const auto is_sun = [](const Light& light) { return light.type == LightType::kDirectional; };
-    const IdleFacts facts{std::any_of(scene().lights.begin(), scene().lights.end(), is_sun), !prepared_.movers.empty(),
-                          !planned.empty(), !planned.plan.maps.empty(), context_.units != nullptr};
+    const IdleFacts facts{std::any_of(scene().lights.begin(), scene().lights.end(), is_sun),
+                          !prepared_.movers.empty(),
+                          wants_light_field(),
+                          !planned.empty(),
+                          !planned.plan.maps.empty(),
+                          context_.units != nullptr};
     for (const std::string& line : idle_options(options_, facts)) context_.warning(line);
   }
 
@@ -244,7 +248,7 @@ class Bake {
   Result<BakedReflections> capture_reflections(PlannedReflections planned, const MaterialMaps& materials,
                                                const AssembledMesh& mesh) {
     if (!options_.with_radiance) {
-      result_.omissions.emplace_back("radiance maps: left out by --only");
+      result_.omissions.emplace_back("reflections: left out by --only");
       return BakedReflections();
     }
     ORIEL_TRY(BakedReflections reflections, timed_("radiance", [&](std::uint64_t& rays) {

@@ -43,8 +43,9 @@ void describe(Serial& s, std::uint32_t size, KernelSlice& slice) {
 }  // namespace
 
 void describe(Serial& s, BrdfKernel& k) {
-  std::uint8_t facets = 1;  // GGX; of packs by earlier programs others too
+  std::uint8_t facets = 1;  // GGX
   s.choice("kernel model", 2, facets);
+  if (facets != 1) s.refuse("found a kernel of model {}, expected GGX's, 1", facets);
   s.reserved(3);
   s(k.alpha, k.cos_theta, k.half_extent, k.energy_kept, k.size);
   s.planes(k.weights, std::uint64_t{k.size} * k.size);

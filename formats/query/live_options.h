@@ -19,6 +19,6 @@ struct LiveOptions {
   std::uint32_t bounce_count() const { return bounces.value_or(indirect == LiveIndirect::kTexels ? 16 : 3); }
   bool operator==(const LiveOptions&) const = default;
 };
-inline constexpr std::uint32_t kMostLiveLights = 100000, kMostLiveBounces = 100;
+inline constexpr std::uint32_t kMostLiveLights = 100000;
 
 }  // namespace oriel

@@ -78,12 +78,6 @@ void Texture2d::bind(int unit) const {
   glBindTexture(GL_TEXTURE_2D, handle_.name());
 }
 
-void Texture2d::use_mipmaps(bool on) const {
-  glBindTexture(GL_TEXTURE_2D, handle_.name());
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, on ? levels_ - 1 : 0);
-  if (anisotropy_ > 1) set_anisotropy(GL_TEXTURE_2D, on ? anisotropy_ : 1);
-}
-
 MultisampleTexture::MultisampleTexture(const TextureFormat& format, int width, int height, int samples)
     : width_(width), height_(height), samples_(samples) {
   GLuint name = 0;

@@ -58,8 +58,6 @@ class Texture2d {
   void upload(int level, int row, int rows, const void* pixels) const;
   void upload(int level, const IVec2& at, const IVec2& size, const void* pixels) const;
   void bind(int unit) const;
-  // From now on all of its levels are looked at, or the finest at one place alone.
-  void use_mipmaps(bool on) const;
   // Fills the coarser levels from the finest.
   void make_mipmaps() const;
   GLuint name() const { return handle_.name(); }

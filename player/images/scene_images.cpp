@@ -290,7 +290,6 @@ void SceneImages::settle(Upload& upload) {
     case ImageKind::kNormal: {
       gpu::Texture2d& texture = (item.name.kind == ImageKind::kColor ? colors_ : normals_)[i];
       texture = std::move(textures[0].texture);
-      texture.use_mipmaps(mipmaps_);
       if (!upload.image.texture.texels.empty()) texels_.emplace_back(i, std::move(upload.image.texture));
       break;
     }
@@ -342,14 +341,6 @@ Result<const LightmapPage*> SceneImages::page(std::uint32_t index, const Lightma
   if (!page && options_.background) return nullptr;  // advance() tells why
   if (!page) return tl::unexpected<Error>(page.error());
   return &*page;
-}
-
-void SceneImages::use_mipmaps(bool on) {
-  if (on == mipmaps_) return;
-  mipmaps_ = on;
-  for (const auto* textures : {&colors_, &normals_})
-    for (const gpu::Texture2d& texture : *textures)
-      if (texture) texture.use_mipmaps(on);
 }
 
 LoadingState SceneImages::state() const {

@@ -90,7 +90,6 @@ class SceneImages {
   // was seen to by finish(). added: what is added to pages, or null.
   Status set_lights(std::span<const Vec3> factors, MapFactors of_maps, std::shared_ptr<const PageChanges> added);
 
-  void use_mipmaps(bool on);
   LoadingState state() const;
   std::uint64_t map_bytes() const { return map_bytes_; }
   const ImageSource& source() const { return source_; }
@@ -172,7 +171,6 @@ class SceneImages {
   double lux_sum_ = 0;
   std::size_t lux_count_ = 0;
   std::vector<std::pair<std::uint32_t, Texture>> texels_;
-  bool mipmaps_ = true;
   std::size_t next_check_ = 0;  // sections before it are checked
   bool checking_ = false;
   Mailbox<Made> made_;

@@ -132,7 +132,6 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   if (!options.live.in_background && !options.lamps.empty()) ORIEL_TRY_VOID(scene.load_images(view));
   ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.load_images(view));
-  scene.use_mipmaps(options.mipmaps);
   const bool halves = options.halves && scene.fits_halves();
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples, halves));
   reflections_.use_halves(halves);

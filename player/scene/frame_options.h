@@ -56,7 +56,6 @@ struct FrameOptions {
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Blur blur = Blur::kDistance;
   bool visible_sets = true;  // draws only what the eye's place may see, where the pack knows
-  bool mipmaps = true;       // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
   int samples = 1;           // of a pixel at edges, as many as the device has
   bool halves = false;       // light in half floats where the scene is dark enough for them: frames are drawn sooner
   bool coarse = false;       // less work by pixel, for frames while something moves

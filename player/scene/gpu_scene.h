@@ -124,8 +124,6 @@ class GpuScene {
   bool fits_halves() const;
   bool fit_halves(const GpuReflector& reflector) const;
 
-  // Whether albedo and normal textures are filtered by their mipmaps, from now on.
-  void use_mipmaps(bool on) { images_->use_mipmaps(on); }
 
   void bind_geometry() const {
     glBindVertexArray(vertex_array_.name());

@@ -36,15 +36,12 @@ const char* no_movers(const Pack& pack, const PlayArguments&) {
   return pack.movers.empty() ? "the pack has no movers" : nullptr;
 }
 
-const char* no_mover_shadows(const Pack& pack, const PlayArguments& a) {
-  if (pack.movers.empty()) return "the pack has no movers";
-  return a.frame.mover_lights == MoverLights::kShadowed ? nullptr : "--mover-lights leaves shadows out";
-}
-
 // In a window lamps can be dragged.
 const char* no_moved_lamps(const Pack& pack, const PlayArguments& a) {
   if (pack.light_groups.empty()) return "the pack has no light groups, so its lamps cannot be moved";
-  return a.offscreen && a.moves.empty() && pack.movers.empty() ? "no lamp is moved" : nullptr;
+  const bool animated = std::any_of(pack.light_groups.begin(), pack.light_groups.end(),
+                                    [](const LightGroup& group) { return !group.keys.empty(); });
+  return a.offscreen && a.moves.empty() && !animated ? "no lamp is moved" : nullptr;
 }
 
 const char* no_window(const Pack&, const PlayArguments& a) {
@@ -55,24 +52,33 @@ bool is_exr(const std::string& file) {
   return std::filesystem::path(file).extension() == ".exr";
 }
 
+bool is_picture_file(const std::string& file) {
+  return is_exr(file) || std::filesystem::path(file).extension() == ".png";
+}
+
+// Offscreen pictures as .exr alone.
 const char* no_exposure(const Pack&, const PlayArguments& a) {
-  if (a.offscreen && (is_exr(a.output) || (a.format == "exr" && !a.output.empty())))
-    return ".exr files hold light, not what is shown";
-  return is_exr(a.reference) ? "--compare with an .exr file is of light" : nullptr;
+  const bool of_light = is_exr(a.output) || (a.format == "exr" && !a.output.empty() && !is_picture_file(a.output));
+  return a.offscreen && a.reference.empty() && of_light ? ".exr files hold light, not what is shown" : nullptr;
+}
+
+bool has_rough_glass(const Pack& pack) {
+  return std::any_of(pack.materials.begin(), pack.materials.end(),
+                     [](const Material& m) { return m.transmission > 0 && m.alpha > 0; });
 }
 
 const Rule kRules[] = {
     {"--blur",
-     [](const Pack& pack, const PlayArguments& a) {
-       return pack.kernels.empty() ? "the pack has no kernels: its reflectors are mirrors"
-                                   : no_planar_reflections(pack, a);
+     [](const Pack& pack, const PlayArguments& a) -> const char* {
+       if (has_rough_glass(pack)) return nullptr;
+       return pack.kernels.empty() ? "the pack has no kernels: its reflectors are mirrors" : no_reflections(pack, a);
      }},
     {"--exposure", no_exposure},
     {"--eye-height", no_window},
     {"--format",
      [](const Pack&, const PlayArguments& a) -> const char* {
-       return a.output.empty() || std::filesystem::path(a.output).has_extension() ? "it is of files in a folder"
-                                                                                  : nullptr;
+       return a.path.empty() && (a.output.empty() || is_picture_file(a.output)) ? "it is of files in a folder"
+                                                                                : nullptr;
      }},
     {"--live-indirect", no_moved_lamps},
     {"--live-lights", no_moved_lamps},
@@ -91,11 +97,11 @@ const Rule kRules[] = {
     {"--reflections",
      [](const Pack& pack, const PlayArguments& a) -> const char* {
        if (pack.reflectors.empty() && pack.curved_reflectors.empty()) return "the pack has no reflectors";
-       const bool needs_maps = a.frame.reflections == Reflections::kMarch;
+       const bool needs_maps = a.frame.reflections == Reflections::kMarch || a.frame.reflections == Reflections::kMesh;
        return needs_maps && !has_maps(pack) ? "the pack has no radiance maps: its mirrors are drawn as geometry"
                                             : nullptr;
      }},
-    {"--shade", no_mover_shadows},
+    {"--shade", no_movers},
     {"--time",
      [](const Pack& pack, const PlayArguments&) {
        const auto moves = [](const auto& one) { return !one.keys.empty(); };

@@ -52,7 +52,7 @@ class PathFrame {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::optional<PathView> wanted_;
-  PathMean mean_;  // published
+  PathMean mean_;  // given to the frame
   bool busy_ = false, ends_ = false;
   std::atomic<bool> held_{false};
   std::thread thread_;

@@ -27,14 +27,7 @@ class ShadeComparison {
       : shown_(shown), steps_(steps), arguments_(arguments) {}
 
   Status find_cameras() {
-    const Pack& pack = shown_.scene->pack();
-    const CameraChoices choices{pack.cameras, pack.paths, pack.mesh.origin};
-    for (const std::string& text : arguments_.cameras) {
-      ORIEL_TRY(const Camera camera, parse_camera(text, choices));
-      cameras_.push_back(camera);
-    }
-    if (cameras_.empty())
-      cameras_.push_back(initial_camera(choices, shown_.scene->bounds().lower, shown_.scene->bounds().upper));
+    ORIEL_TRY(cameras_, shown_cameras(*shown_.scene, arguments_.cameras));
     return {};
   }
 
@@ -198,7 +191,7 @@ class ShadeComparison {
 Status compare_shades(const ShownArguments& arguments, const ShadeArguments& asked) {
   ORIEL_TRY(Pack pack, open_or_bake(arguments.input, {}));
   if (pack.movers.empty() || pack.lightmaps.empty())
-    return fail(ErrorCode::kUsage, arguments.input, "found no movers over a lightmap, expected some");
+    return fail(ErrorCode::kUsage, arguments.input, "found no movers over a lightmap, expected some: oriel-bake --mover NODE makes them");
   ORIEL_TRY(ShownScene shown, ShownScene::open(std::move(pack)));
   ORIEL_TRY(ShadeSteps steps, ShadeSteps::create(shown.device.dialect));
   ShadeComparison comparison(shown, steps, arguments);

@@ -120,9 +120,11 @@ ToolCommand bastos1999_command(ShownArguments& arguments) {
       .footer = "",
       .options = std::move(options),
       .settle =
-          [a, &arguments](const Given& given) {
+          [a, &arguments](const Given& given) -> Status {
             a->bake.scene = arguments.input;
-            return settle(a->bake, given);
+            ORIEL_TRY_VOID(settle(a->bake, given));
+            a->bake.given.clear();  // they are the method's
+            return {};
           },
       .run = [a, &arguments] { return run_image_method(arguments, *a); }};
 }

@@ -5,10 +5,10 @@
 #include <map>
 #include <memory>
 
-#include "study/support/shadow_mesh.h"
 #include "player/gpu/program.h"
 #include "player/movers/mover_pass.h"
 #include "study/diefenbach1997/light_paths.h"
+#include "study/support/shadow_mesh.h"
 
 namespace oriel::study {
 

@@ -93,7 +93,8 @@ bool is_marked(const Pack& pack) {
 Result<std::vector<LightmapPage>> bake_reflected(const LightmapScene& scene, const RadiosityOptions& options,
                                                  Context& context) {
   std::vector<Vec3> eyes = options.eyes;
-  if (eyes.empty()) eyes = sample_view_positions(scene.transport, kLightmapEyes, mix64(context.seed + seeds::kFramePixels));
+  if (eyes.empty())
+    eyes = sample_view_positions(scene.transport, kLightmapEyes, mix64(context.seed + seeds::kFramePixels));
   ORIEL_TRY(const std::vector<FramePixel> pixels,
             find_frame_pixels(scene.transport, scene.atlas, {eyes, kPixelsOfEye},
                               mix64(mix64(context.seed + seeds::kFramePixels)), context));

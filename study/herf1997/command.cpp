@@ -99,11 +99,9 @@ struct Shade {
 };
 
 Result<Camera> camera_of(const GpuScene& scene, const std::vector<std::string>& asked) {
-  const Pack& pack = scene.pack();
-  const CameraChoices choices{pack.cameras, pack.paths, pack.mesh.origin};
-  if (asked.empty()) return initial_camera(choices, scene.bounds().lower, scene.bounds().upper);
-  if (asked.size() > 1) return fail(ErrorCode::kUsage, "--camera", "found {}, expected one", asked.size());
-  return parse_camera(asked[0], choices);
+  ORIEL_TRY(const std::vector<Camera> cameras, shown_cameras(scene, asked));
+  if (cameras.size() > 1) return fail(ErrorCode::kUsage, "--camera", "found {}, expected one", cameras.size());
+  return cameras[0];
 }
 
 // Writes the frame that was drawn last into the folder that was asked for, if any.
@@ -129,7 +127,7 @@ Status run_herf1997(const ShownArguments& arguments, const Herf1997Settings& set
   if (arguments.input.empty()) return fail(ErrorCode::kUsage, "INPUT", "found none, expected a scene or pack");
   BakeOptions options;
   ORIEL_TRY(Pack pack, open_or_bake(arguments.input, options));
-  if (pack.movers.empty()) return fail(ErrorCode::kUsage, arguments.input, "found no movers, expected some");
+  if (pack.movers.empty()) return fail(ErrorCode::kUsage, arguments.input, "found no movers, expected some: oriel-bake --mover NODE makes them");
   ORIEL_TRY(ShownScene shown, ShownScene::open(std::move(pack)));
   ORIEL_TRY(const Camera camera, camera_of(*shown.scene, arguments.cameras));
   ORIEL_TRY(TextureShadows textures, TextureShadows::create(shown.device.dialect));

@@ -21,21 +21,9 @@ struct CameraFile {
 };
 
 Result<std::vector<CameraFile>> choose_cameras(const GpuScene& scene, const ShownArguments& arguments) {
-  const Pack& pack = scene.pack();
-  const CameraChoices choices{pack.cameras, pack.paths, pack.mesh.origin};
+  ORIEL_TRY(const std::vector<Camera> cameras, shown_cameras(scene, arguments.cameras));
   std::vector<CameraFile> out;
-  for (const std::string& text : arguments.cameras) {
-    if (text == "all") {
-      for (const Camera& camera : pack.cameras) out.push_back({camera.name, camera, {}});
-      continue;
-    }
-    ORIEL_TRY(Camera camera, parse_camera(text, choices));
-    out.push_back({camera.name.empty() ? text : camera.name, camera, {}});
-  }
-  if (out.empty()) {
-    const Camera camera = initial_camera(choices, scene.bounds().lower, scene.bounds().upper);
-    out.push_back({camera.name.empty() ? "start" : camera.name, camera, {}});
-  }
+  for (const Camera& camera : cameras) out.push_back({camera.name, camera, {}});
   if (arguments.output.empty()) return out;
   const fs::path output = arguments.output;
   if (output.extension() == ".png" || is_linear_file(arguments.output)) {
@@ -52,6 +40,24 @@ Result<std::vector<CameraFile>> choose_cameras(const GpuScene& scene, const Show
 }
 
 }  // namespace
+
+Result<std::vector<Camera>> shown_cameras(const GpuScene& scene, const std::vector<std::string>& asked) {
+  const Pack& pack = scene.pack();
+  const CameraChoices choices{pack.cameras, pack.paths, pack.mesh.origin};
+  std::vector<Camera> out;
+  for (const std::string& text : asked) {
+    if (text == "all") {
+      out.insert(out.end(), pack.cameras.begin(), pack.cameras.end());
+      continue;
+    }
+    ORIEL_TRY(Camera camera, parse_camera(text, choices));
+    if (camera.name.empty()) camera.name = text;
+    out.push_back(std::move(camera));
+  }
+  if (out.empty()) out.push_back(initial_camera(choices, scene.bounds().lower, scene.bounds().upper));
+  if (out[0].name.empty()) out[0].name = "start";
+  return out;
+}
 
 std::vector<Option> shown_options(ShownArguments& out) {
   return {

@@ -24,6 +24,9 @@ struct ShownArguments {
 };
 std::vector<Option> shown_options(ShownArguments& out);
 
+// Cameras as --camera names them, "all" those of the pack; none: the one to start with. Error kUsage.
+Result<std::vector<Camera>> shown_cameras(const GpuScene& scene, const std::vector<std::string>& asked);
+
 // options: of the bake, where the input is a scene. Errors of both.
 Result<Pack> open_or_bake(const std::string& input, BakeOptions options);
 

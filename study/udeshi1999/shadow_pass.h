@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "study/support/shadow_mesh.h"
 #include "preview/frame/lamps.h"
 #include "preview/frame/surface_pass.h"
+#include "study/support/shadow_mesh.h"
 
 namespace oriel::study {
 

@@ -227,7 +227,7 @@ quit
 // A click on the panel is the panel's; elsewhere it grabs the mouse, which Esc releases before it quits.
 TEST_F(PlayWindow, ThePanelKeepsItsClicks) {
   const char* click_and_escape = R"(
-point "$1" 60; click 1
+key Tab; point "$1" 60; click 1
 key F1; key F1
 key Escape  # until it is taken, or has ended the player
 kill -0 $pid && echo "still there"
@@ -235,7 +235,7 @@ kill $pid; wait $pid
 )";
   const auto clicked_at = [&](const std::string& x) {
     std::string script = kStart + "set -- " + x + click_and_escape;
-    script.replace(script.find("--size 160x90"), 13, "--panel --size 480x300");
+    script.replace(script.find("--size 160x90"), 13, "--size 480x300");
     return in_display(script).out;
   };
   EXPECT_EQ(clicked_at("400").find("still there"), std::string::npos);

@@ -8,7 +8,7 @@
 namespace oriel {
 
 // Creates it for a task, which must outlive it. Samples go where the task's frame pixels need them. write() fills the
-// report's fields marked `cached`. Error kStopped; refine() also kInvalid where light does not die away.
+// report's fields marked `cached`. Error kStopped.
 Result<std::unique_ptr<LightEstimator>> make_cached_estimator(const RadiosityTask& task);
 
 }  // namespace oriel

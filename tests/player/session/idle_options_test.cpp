@@ -48,16 +48,12 @@ void light_file(PlayArguments& a) {
 void one_file(PlayArguments& a) {
   a.output = "a.png";
 }
-void harmonics(PlayArguments& a) {
-  a.frame.mover_lights = MoverLights::kHarmonics;
-}
 void no_reflections(PlayArguments& a) {
   a.frame.reflections = Reflections::kOff;
 }
 const std::map<std::string, Mode> kIdleIn = {
-    {"--blur", no_reflections},   {"--exposure", light_file},  {"--eye-height", offscreen},
-    {"--format", one_file},       {"--log-frames", offscreen}, {"--maps", no_reflections},
-    {"--orders", no_reflections}, {"--shade", harmonics},      {"--tonemap", light_file}};
+    {"--blur", no_reflections},  {"--exposure", light_file}, {"--eye-height", offscreen},  {"--format", one_file},
+    {"--log-frames", offscreen}, {"--maps", no_reflections}, {"--orders", no_reflections}, {"--tonemap", light_file}};
 
 TEST(IdleOptions, AreToldOfWhereTheyDoNothing) {
   const Pack all = pack_with_all();
