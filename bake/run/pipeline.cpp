@@ -81,7 +81,8 @@ class Bake {
     ORIEL_TRY(Radiosity light, bake_lightmap());
     ORIEL_TRY(result_.ledger, keep_energy_ledger(light));
     pack().lightmaps = std::move(light.pages);
-    ORIEL_TRY(unlit_white_, weigh_unlit());
+    const auto eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
+    ORIEL_TRY(unlit_white_, unlit_white(task(), path_options(options_), eyes));
     planned.light_reused = light.report.reuse.reused > 0;
     if (options_.with_radiance) pack().walk_grids = planned.all.region.grids;
     ORIEL_TRY(BakedReflections reflections, capture_reflections(std::move(planned), materials, mesh));
@@ -239,10 +240,6 @@ class Bake {
                                      WarningKind::kTimeOver);
     result_.findings = ledger_findings(ledger.value_or(Ledger()));
     return ledger.value_or(Ledger());
-  }
-
-  Result<float> weigh_unlit() {
-    return unlit_white(task(), path_options(options_), sample_eyes(prepared_.region, kLightmapEyes, context_.seed));
   }
 
   Result<BakedReflections> capture_reflections(PlannedReflections planned, const MaterialMaps& materials,
