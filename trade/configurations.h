@@ -13,12 +13,12 @@ namespace oriel::trade {
 using Settings = std::map<std::string, std::string>;
 
 struct Configuration {
-  std::string knob;       // what is varied: "error", "texel", …; "default" for the default
-  std::string setting;    // and to what: "5 %"
-  Settings bake, play;    // all options of oriel-bake that matter here, and of oriel-play that are not its defaults
-  unsigned paths = 0;     // not 0: no pack, frames path-traced by that many paths a pixel
-  Settings preview{};     // not empty: no pack, frames of oriel-preview by these
-  bool moved = false;     // a lamp is elsewhere: held against frames of that, comparable with each other alone
+  std::string knob;     // what is varied: "error", "texel", …; "default" for the default
+  std::string setting;  // and to what: "5 %"
+  Settings bake, play;  // all options of oriel-bake that matter here, and of oriel-play that are not its defaults
+  unsigned paths = 0;   // not 0: no pack, frames path-traced by that many paths a pixel
+  Settings preview{};   // not empty: no pack, frames of oriel-preview by these
+  bool moved = false;   // a lamp is elsewhere: held against frames of that, comparable with each other alone
 
   std::string name() const { return setting.empty() ? knob : knob + " " + setting; }
 };

@@ -196,7 +196,7 @@ struct Scene {
   // Every lamp has one of them; empty: nobody asks whose light it is.
   std::vector<SceneLightGroup> light_groups;
   std::uint32_t sky_group = 0;  // into light_groups
-  int light_mirrors = 8;  // that point, spot and directional lights are followed by, at most
+  int light_mirrors = 8;        // that point, spot and directional lights are followed by, at most
 
   std::uint32_t light_group(std::uint32_t triangle) const { return surfaces[triangle_surface[triangle]].light_group; }
   const SceneMaterial& material_of(std::uint32_t triangle) const {

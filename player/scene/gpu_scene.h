@@ -124,7 +124,6 @@ class GpuScene {
   bool fits_halves() const;
   bool fit_halves(const GpuReflector& reflector) const;
 
-
   void bind_geometry() const {
     glBindVertexArray(vertex_array_.name());
     index_buffer_.bind(GL_ELEMENT_ARRAY_BUFFER);

@@ -191,7 +191,8 @@ class ShadeComparison {
 Status compare_shades(const ShownArguments& arguments, const ShadeArguments& asked) {
   ORIEL_TRY(Pack pack, open_or_bake(arguments.input, {}));
   if (pack.movers.empty() || pack.lightmaps.empty())
-    return fail(ErrorCode::kUsage, arguments.input, "found no movers over a lightmap, expected some: oriel-bake --mover NODE makes them");
+    return fail(ErrorCode::kUsage, arguments.input,
+                "found no movers over a lightmap, expected some: oriel-bake --mover NODE makes them");
   ORIEL_TRY(ShownScene shown, ShownScene::open(std::move(pack)));
   ORIEL_TRY(ShadeSteps steps, ShadeSteps::create(shown.device.dialect));
   ShadeComparison comparison(shown, steps, arguments);

@@ -119,13 +119,12 @@ ToolCommand bastos1999_command(ShownArguments& arguments) {
       .help = "Reflections from radiance maps: points, a kernel and a sphere map (Bastos, Hoff, Wynn and Lastra 1999)",
       .footer = "",
       .options = std::move(options),
-      .settle =
-          [a, &arguments](const Given& given) -> Status {
-            a->bake.scene = arguments.input;
-            ORIEL_TRY_VOID(settle(a->bake, given));
-            a->bake.given.clear();  // they are the method's
-            return {};
-          },
+      .settle = [a, &arguments](const Given& given) -> Status {
+        a->bake.scene = arguments.input;
+        ORIEL_TRY_VOID(settle(a->bake, given));
+        a->bake.given.clear();  // they are the method's
+        return {};
+      },
       .run = [a, &arguments] { return run_image_method(arguments, *a); }};
 }
 
