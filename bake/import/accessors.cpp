@@ -72,7 +72,7 @@ Status AccessorReader::for_each(int accessor, const Element& element) {
   return {};
 }
 
-Result<std::vector<float>> AccessorReader::decode(int accessor) {
+Result<std::vector<float>> AccessorReader::decode(int accessor, NotFinite& bad) {
   const AccessorDesc& a = desc(accessor);
   if (a.view < 0 && a.count > kMaxZeroElements)
     return invalid(where(accessor), "found {} elements without a bufferView, expected at most {}", a.count,
@@ -82,25 +82,30 @@ Result<std::vector<float>> AccessorReader::decode(int accessor) {
   const std::uint32_t columns = a.matrix ? static_cast<std::uint32_t>(std::lround(std::sqrt(a.components))) : 1;
   const std::uint32_t rows = a.components / columns;
   const std::uint64_t column_size = a.element_size / columns;
-  std::uint64_t bad = a.count;
   const Status status = for_each(accessor, [&](std::uint64_t i, const std::byte* bytes) {
     for (std::uint32_t c = 0; c < a.components; ++c) {
       const float value = load_float(bytes + c / rows * column_size + c % rows * size, a.type, a.normalized);
-      if (!std::isfinite(value) && bad == a.count) bad = i;
-      out[i * a.components + c] = value;
+      const bool finite = std::isfinite(value);
+      if (!finite && bad.count++ == 0) bad.first = i;
+      out[i * a.components + c] = finite ? value : 0;
     }
   });
   if (!status) return tl::unexpected<Error>(status.error());
-  if (bad != a.count)
-    return invalid(where(accessor), "found NaN or infinity in element {}, expected finite numbers", bad);
   return out;
 }
 
 Result<std::span<const float>> AccessorReader::floats(int accessor) {
+  ORIEL_TRY(const std::span<const float> values, finite_or_zero(accessor));
+  if (const NotFinite& bad = not_finite_[static_cast<std::size_t>(accessor)]; bad.count > 0)
+    return invalid(where(accessor), "found NaN or infinity in element {}, expected finite numbers", bad.first);
+  return values;
+}
+
+Result<std::span<const float>> AccessorReader::finite_or_zero(int accessor) {
   auto& cached = cache_[static_cast<std::size_t>(accessor)];
   if (!cached) {
     ORIEL_TRY_VOID(budget_.take(desc(accessor).count * desc(accessor).components * sizeof(float), where(accessor)));
-    ORIEL_TRY(cached, decode(accessor));
+    ORIEL_TRY(cached, decode(accessor, not_finite_[static_cast<std::size_t>(accessor)]));
   }
   return std::span<const float>(*cached);
 }
@@ -120,24 +125,6 @@ Result<std::vector<std::uint32_t>> AccessorReader::indices(int accessor) {
   ORIEL_TRY_VOID(
       for_each(accessor, [&](std::uint64_t i, const std::byte* bytes) { out[i] = load_unsigned(bytes, a.type); }));
   return out;
-}
-
-Status AccessorReader::check_unread() {
-  std::uint64_t work_left = std::uint64_t{1} << 32;  // bytes; only a hostile file holds more that nobody uses
-  for (std::size_t i = 0; i < cache_.size(); ++i) {
-    const AccessorDesc& a = document_.accessors[i];
-    if (cache_[i] || a.type != ComponentType::kFloat || (a.view < 0 && !a.sparse)) continue;
-    if (a.count * a.element_size > work_left) break;
-    work_left -= a.count * a.element_size;
-    std::uint64_t bad = a.count;
-    ORIEL_TRY_VOID(for_each(static_cast<int>(i), [&](std::uint64_t k, const std::byte* bytes) {
-      for (std::uint64_t c = 0; c < a.element_size; c += 4)
-        if (!std::isfinite(load<float>(bytes + c)) && bad == a.count) bad = k;
-    }));
-    if (bad != a.count)
-      return invalid(where(static_cast<int>(i)), "found NaN or infinity in element {}, expected finite numbers", bad);
-  }
-  return {};
 }
 
 }  // namespace oriel::gltf

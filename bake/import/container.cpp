@@ -17,9 +17,13 @@ Result<Container> split_glb(std::span<const std::byte> bytes, const std::string&
   const auto length = header.get<std::uint32_t>();
   if (!header.ok()) return invalid(file, "found {} bytes, expected a GLB header of 12", bytes.size());
   if (version != 2) return invalid(file, "found GLB version {}, expected 2", version);
-  if (length != bytes.size())
+  if (length < 12 || length > bytes.size())
     return invalid(file, "found {} bytes, expected the {} that the GLB header says", bytes.size(), length);
   Container parts;
+  if (length < bytes.size())
+    parts.warnings.push_back(fmt::format("{}: {} bytes after the GLB's end are ignored: its header says {}", file,
+                                         bytes.size() - length, length));
+  bytes = bytes.first(length);
   std::size_t at = 12;
   for (int chunk = 0; at < bytes.size(); ++chunk) {
     const std::string where = fmt::format("{}: GLB chunk {} at byte {}", file, chunk, at);
@@ -113,7 +117,7 @@ Result<Container> split_container(std::span<const std::byte> bytes, const std::s
   if (first != bytes.end() && *first != std::byte{'{'} && *first != std::byte{0xEF})
     return invalid(file, "found byte {:#04x} first, expected a GLB (\"glTF\") or a JSON object",
                    static_cast<unsigned>(*first));
-  return Container{bytes, std::nullopt};
+  return Container{.json = bytes, .binary = std::nullopt};
 }
 
 bool is_data_uri(std::string_view uri) {

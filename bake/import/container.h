@@ -15,6 +15,7 @@ namespace oriel::gltf {
 struct Container {
   std::span<const std::byte> json;
   std::optional<std::span<const std::byte>> binary;  // the BIN chunk of a GLB, padding included
+  std::vector<std::string> warnings = {};
 };
 
 // Told by the first bytes: "glTF" is a GLB, anything else is taken for JSON. Error kInvalid for an empty file and for a

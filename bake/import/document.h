@@ -100,6 +100,7 @@ struct NodeDesc {
   Metal metal = Metal::kNone;     // extras.oriel_metal: of all that its mesh shows
   bool mover = false;             // extras.oriel.mover
   std::string light_group;        // extras.oriel.light_group
+  bool hidden = false;            // KHR_node_visibility: and all below it
   float angular_radius_rad = -1;  // for its directional light; < 0: the light's own
   std::vector<std::uint32_t> children;
   bool has_matrix = false;
@@ -121,6 +122,7 @@ struct CameraDesc {
   std::string name;
   bool perspective = true;
   double vertical_fov_rad = 1, half_height = 1;
+  bool usable = true;  // else no node shows it
 };
 
 struct AnimationDesc {

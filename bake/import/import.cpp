@@ -234,13 +234,12 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY(const gltf::Container container, gltf::split_container(bytes, file));
   ORIEL_TRY(gltf::JsonDocument json, gltf::JsonDocument::parse(container.json, file));
   ORIEL_TRY(gltf::Document document, gltf::parse_document(json));
+  for (const std::string& warning : container.warnings) context.warning(warning);
   for (const std::string& warning : document.warnings) context.warning(warning);
   const fs::path folder = path.parent_path();
   ORIEL_TRY(const gltf::BufferStore buffers, gltf::BufferStore::load(document, container, folder, budget, out.inputs));
   gltf::AccessorReader accessors(document, buffers, budget);
-  ORIEL_TRY(const std::vector<gltf::LoadedMesh> meshes,
-            gltf::load_meshes(document, buffers, accessors, budget, context));
-  ORIEL_TRY_VOID(accessors.check_unread());
+  ORIEL_TRY(const std::vector<gltf::LoadedMesh> meshes, gltf::load_meshes(document, buffers, accessors, context));
   ORIEL_TRY(std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
   if (options.unit_m != 1) roots = {scale_document(options.unit_m, roots, document)};
   ORIEL_TRY(PosedNodes nodes, pose_nodes(document, roots));

@@ -37,13 +37,16 @@ std::string shown(const oriel::Json& value) {
 }  // namespace
 
 Result<JsonDocument> JsonDocument::parse(std::span<const std::byte> bytes, const std::string& file) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (text.starts_with("\xEF\xBB\xBF"))
-    return invalid(file, "found a UTF-8 byte order mark, expected JSON without one");
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const bool marked = text.starts_with("\xEF\xBB\xBF"), padded = text.ends_with('\0');
+  if (marked) text.remove_prefix(3);
+  while (text.ends_with('\0')) text.remove_suffix(1);
   if (nested_deeper_than(text, kMaxJsonDepth))
     return invalid(file, "found JSON nested deeper than {} levels, expected less", kMaxJsonDepth);
   JsonDocument document;
   document.file_ = file;
+  if (marked) document.add_repair("", "a byte order mark before the JSON is skipped");
+  if (padded) document.add_repair("", "zero bytes after the JSON are skipped");
   ORIEL_TRY(document.value_, oriel::Json::parse(text, file));
   if (!document.value_.is_object()) return invalid(file, "found {}, expected a JSON object", shown(document.value_));
   return document;
@@ -61,6 +64,20 @@ Status JsonDocument::status() const {
 void JsonDocument::add_error(const std::string& path, std::string message) {
   if (!first_error_)
     first_error_ = Error{ErrorCode::kInvalid, std::move(message), path.empty() ? file_ : file_ + ": " + path};
+}
+
+void JsonDocument::add_repair(const std::string& path, const std::string& what) {
+  auto repair = std::ranges::find(repairs_, what, &Repair::what);
+  if (repair == repairs_.end()) repair = repairs_.insert(repair, {what, path});
+  ++repair->count;
+}
+
+std::vector<std::string> JsonDocument::repairs() const {
+  std::vector<std::string> lines;
+  for (const Repair& repair : repairs_)
+    lines.push_back(fmt::format("{}{}{}{}: {}", file_, repair.first_path.empty() ? "" : ": ", repair.first_path,
+                                repair.count > 1 ? fmt::format(" and {} more", repair.count - 1) : "", repair.what));
+  return lines;
 }
 
 JsonAt JsonAt::operator[](const char* key) const {

@@ -22,8 +22,8 @@ class JsonAt;
 // A parsed document. The JsonAt values it hands out point into it.
 class JsonDocument {
  public:
-  // Error kInvalid: a byte order mark, wrong syntax, not UTF-8, a number out of range, or nested deeper than
-  // kMaxJsonDepth. `file` names the document in errors.
+  // A byte order mark, and zero bytes at the end, are skipped. Error kInvalid: wrong syntax, not UTF-8, a number out of
+  // range, or nested deeper than kMaxJsonDepth. `file` names the document in errors.
   static Result<JsonDocument> parse(std::span<const std::byte> text, const std::string& file);
 
   JsonAt root();
@@ -31,8 +31,16 @@ class JsonDocument {
   // What was wrong first, if anything was.
   Status status() const;
   void add_error(const std::string& path, std::string message);
+  // What was wrong and is mended: `what` says the fault and the cure. Faults of one kind make one warning.
+  void add_repair(const std::string& path, const std::string& what);
+  std::vector<std::string> repairs() const;
 
  private:
+  struct Repair {
+    std::string what, first_path;
+    std::size_t count = 0;
+  };
+  std::vector<Repair> repairs_;
   oriel::Json value_;
   std::string file_;
   std::optional<Error> first_error_;
@@ -77,6 +85,7 @@ class JsonAt {
   // Records "found <this value>, expected <expected>".
   void expected(std::string_view what) const;
   void error(std::string message) const { document_->add_error(path_, std::move(message)); }
+  void repaired(const std::string& what) const { document_->add_repair(path_, what); }
   JsonDocument& document() const { return *document_; }
 
  private:

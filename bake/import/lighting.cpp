@@ -3,7 +3,7 @@
 #include <map>
 
 #include "bake/import/images.h"
-#include "bake/scene/ies.h"
+#include "bake/scene/ldt.h"
 #include "bake/scene/sky.h"
 #include "formats/core/file.h"
 #include "formats/core/hash.h"
@@ -102,7 +102,10 @@ Status load_profiles(const ImportOptions& options, gltf::MemoryBudget& budget, I
       ORIEL_TRY(const Bytes bytes, read_input(path, budget, out));
       if (bytes.size() > kMostBytes)
         return invalid(path.string(), "found {} bytes, expected at most {}", bytes.size(), kMostBytes);
-      ORIEL_TRY(IesFile file, parse_ies({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string()));
+      const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      const std::string extension = path.extension().string();
+      const bool eulumdat = extension == ".ldt" || extension == ".LDT" || extension == ".Ldt";
+      ORIEL_TRY(IesFile file, eulumdat ? parse_ldt(text, path.string()) : parse_ies(text, path.string()));
       for (const std::string& warning : file.warnings) context.warning(warning);
       scene.profiles.push_back(std::move(file.profile));
     }

@@ -71,12 +71,13 @@ TriangleKey key_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 // Reads one primitive.
 class PrimitiveLoader {
  public:
-  PrimitiveLoader(const Document& document, const BufferStore& buffers, AccessorReader& accessors, MemoryBudget& budget,
-                  const PrimitiveDesc& desc)
+  PrimitiveLoader(const Document& document, const BufferStore& buffers, AccessorReader& accessors,
+                  const PrimitiveDesc& desc, WarningGroup& mended)
       : document_(document),
         buffers_(buffers),
         accessors_(accessors),
-        budget_(budget),
+        budget_(accessors.budget()),
+        mended_(mended),
         desc_(desc),
         where_(document.file + ": " + desc.path) {}
 
@@ -191,7 +192,14 @@ class PrimitiveLoader {
     ORIEL_TRY_VOID(check_type(a, name, document_.quantized, where));
     if (count_ && a.count != *count_)
       return invalid(where, "found {} elements, expected {} as POSITION has", a.count, *count_);
-    ORIEL_TRY(const std::span<const float> values, accessors_.floats(found->second));
+    // Without its normal or tangent a vertex has that of its triangle; one texture coordinate moves one texture.
+    const bool mends = name == "NORMAL" || name == "TANGENT" || name.starts_with("TEXCOORD");
+    ORIEL_TRY(const std::span<const float> values,
+              mends ? accessors_.finite_or_zero(found->second) : accessors_.floats(found->second));
+    if (const auto& bad = accessors_.not_finite(found->second); bad.count > 0)
+      mended_.add(fmt::format("{}: {} numbers are NaN or infinite, the first in element {}: taken as {}", where,
+                              bad.count, bad.first,
+                              name.starts_with("TEXCOORD") ? "0" : "none: the triangle's own serves"));
     return Attribute{values, a.components};
   }
 
@@ -307,6 +315,7 @@ class PrimitiveLoader {
   const BufferStore& buffers_;
   AccessorReader& accessors_;
   MemoryBudget& budget_;
+  WarningGroup& mended_;
   const PrimitiveDesc& desc_;
   std::string where_;
   DracoMesh draco_;
@@ -338,10 +347,11 @@ bool degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 Result<std::vector<LoadedMesh>> load_meshes(const Document& document, const BufferStore& buffers,
-                                            AccessorReader& accessors, MemoryBudget& budget, Context& context) {
+                                            AccessorReader& accessors, Context& context) {
   std::vector<LoadedMesh> meshes;
   std::size_t thin = 0, bare = 0;
   WarningGroup dropped(context, "meshes with degenerate, doubled or incomplete triangles", WarningKind::kDegenerate);
+  WarningGroup mended(context, "attributes with numbers that are NaN or infinite");
   for (std::size_t i = 0; i < document.meshes.size(); ++i) {
     if (context.stopped()) return fail(ErrorCode::kStopped, document.file, "stopped");
     const MeshDesc& desc = document.meshes[i];
@@ -357,13 +367,14 @@ Result<std::vector<LoadedMesh>> load_meshes(const Document& document, const Buff
         ++thin;
         continue;
       }
-      ORIEL_TRY(TriangleMesh triangles, PrimitiveLoader(document, buffers, accessors, budget, primitive).load(drops));
+      ORIEL_TRY(TriangleMesh triangles, PrimitiveLoader(document, buffers, accessors, primitive, mended).load(drops));
       if (!triangles.triangles.empty()) mesh.primitives.push_back(std::move(triangles));
     }
     warn_of_drops(fmt::format("mesh \"{}\"", mesh.name), drops, dropped);
     meshes.push_back(std::move(mesh));
   }
   dropped.finish();
+  mended.finish();
   if (thin > 0) context.warning(fmt::format("{} primitives of points or lines are left out", thin));
   if (bare > 0) context.warning(fmt::format("{} primitives without POSITION are left out", bare));
   return meshes;

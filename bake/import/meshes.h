@@ -42,8 +42,8 @@ bool degenerate(const Vec3& a, const Vec3& b, const Vec3& c);
 
 // Every mesh of the document. Strips and fans become lists; points and lines are left out with one warning, degenerate
 // and doubled triangles with one a mesh. Error kInvalid for indices out of range, attributes of unequal count or of a
-// type that glTF does not allow, and numbers that are not finite.
+// type that glTF does not allow, and positions or weights that are not finite.
 Result<std::vector<LoadedMesh>> load_meshes(const Document& document, const BufferStore& buffers,
-                                            AccessorReader& accessors, MemoryBudget& budget, Context& context);
+                                            AccessorReader& accessors, Context& context);
 
 }  // namespace oriel::gltf

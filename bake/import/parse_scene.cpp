@@ -57,19 +57,28 @@ SkinDesc parse_skin(const JsonAt& value, std::size_t nodes, const Document& docu
   return skin;
 }
 
-// A matrix that puts something somewhere: affine, and no axis of no length.
-bool places(const DMat4& m) {
-  if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return false;
-  for (int i = 0; i < 3; ++i)
-    if (const double length = std::hypot(m[i].x, m[i].y, m[i].z); !(length > 0) || !std::isfinite(length)) return false;
+// The last row of a matrix that is affine but for rounding becomes 0, 0, 0, 1. False where it is more than rounding.
+bool round_to_affine(const JsonAt& value, DMat4& m) {
+  constexpr double kRounding = 1e-3;  // of a column's length: a matrix printed with four digits
+  const auto length = [&](int i) { return std::hypot(m[i].x, m[i].y, m[i].z); };
+  if (m[3][3] != 1 && m[3][3] > 0) m /= m[3][3];  // homogeneous coordinates
+  bool rounded = false;
+  for (int i = 0; i < 4; ++i) {
+    const double off = i < 3 ? std::abs(m[i][3]) : std::abs(m[3][3] - 1);
+    if (!std::isfinite(length(i)) || off > kRounding * (i < 3 ? length(i) : 1.0)) return false;
+    rounded = rounded || off > 0;
+    m[i][3] = i == 3;
+  }
+  if (rounded) value.repaired("the last row of the matrix is taken as 0, 0, 0, 1: it differs by rounding");
   return true;
 }
 
-// A matrix that is no translation, rotation and scale (glTF-Validator: NODE_MATRIX_NON_TRS). Of one that places().
+// A matrix that is no translation, rotation and scale (glTF-Validator: NODE_MATRIX_NON_TRS).
 bool shears(const DMat4& m) {
   for (int i = 0; i < 3; ++i) {
     const DVec3 a(m[i]), b(m[(i + 1) % 3]);
-    if (std::abs(glm::dot(a / std::hypot(a.x, a.y, a.z), b / std::hypot(b.x, b.y, b.z))) > 1e-4) return true;
+    const double lengths = std::hypot(a.x, a.y, a.z) * std::hypot(b.x, b.y, b.z);
+    if (std::abs(glm::dot(a, b)) > 1e-4 * lengths) return true;
   }
   return false;
 }
@@ -94,8 +103,9 @@ void parse_transform(const JsonAt& value, NodeDesc& node) {
   std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   matrix.numbers(m);
   for (std::size_t i = 0; i < 16; ++i) node.matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = m[i];
-  if (!places(node.matrix))
-    matrix.error("found a matrix that is singular or not affine, expected a translation, rotation and scale");
+  if (!round_to_affine(matrix, node.matrix))
+    return matrix.error("found a matrix that is not affine, expected a translation, rotation and scale");
+  if (shears(node.matrix)) matrix.repaired("the matrix shears, which glTF does not allow; it is taken as it stands");
 }
 
 // Half of extras.oriel.angular_diameter_deg: how large a directional light appears.
@@ -109,6 +119,7 @@ NodeDesc parse_node(const JsonAt& value, std::size_t count, const Document& docu
   node.name = value["name"].name();
   node.mesh = value["mesh"].index(document.meshes.size());
   node.camera = value["camera"].index(document.cameras.size());
+  if (node.camera >= 0 && !document.cameras[static_cast<std::size_t>(node.camera)].usable) node.camera = -1;
   node.skin = value["skin"].index(document.skins.size());
   node.weights = parse_weights(value["weights"]);
   node.light = value.extension("KHR_lights_punctual")["light"].index(document.lights.size());
@@ -117,6 +128,7 @@ NodeDesc parse_node(const JsonAt& value, std::size_t count, const Document& docu
   node.mover = value.extra("oriel")["mover"].boolean(false);
   node.light_group = value.extra("oriel")["light_group"].name();
   parse_transform(value, node);
+  node.hidden = !value.extension("KHR_node_visibility")["visible"].boolean(true);
   const JsonAt children = value["children"];
   for (std::size_t i = 0; i < children.size(); ++i)
     if (const int child = children.at(i).index(count); child >= 0)
@@ -138,11 +150,15 @@ CameraDesc parse_camera(const JsonAt& value, std::size_t i) {
   if (camera.name.empty()) camera.name = fmt::format("camera {}", i);
   const std::string type = value.need("type").text();
   if (type == "perspective") {
-    camera.vertical_fov_rad = value.need("perspective").need("yfov").number(1, 1e-6, kPiD - 1e-6);
+    camera.vertical_fov_rad = value["perspective"]["yfov"].number(0);
+    camera.usable = camera.vertical_fov_rad > 1e-6 && camera.vertical_fov_rad < kPiD - 1e-6;
+    if (!camera.usable)
+      value["perspective"]["yfov"].repaired("no angle between 0 and π rad: the camera is left out (degrees?)");
   } else if (type == "orthographic") {
     camera.perspective = false;
-    camera.half_height = std::abs(value.need("orthographic").need("ymag").number(1, -1e30, 1e30));
-    if (camera.half_height == 0) value["orthographic"]["ymag"].expected("another number than 0");
+    camera.half_height = std::abs(value["orthographic"]["ymag"].number(0));
+    camera.usable = camera.half_height > 0 && camera.half_height < 1e30;
+    if (!camera.usable) value["orthographic"]["ymag"].repaired("no height other than 0: the camera is left out");
   } else {
     value["type"].expected("perspective or orthographic");
   }
@@ -163,7 +179,11 @@ Light parse_light(const JsonAt& value, std::size_t i, Document& document) {
   light.angular_radius_rad = angular_radius(value, 0);
   std::array<double, 3> color{1, 1, 1};
   value["color"].numbers(color);
-  const double intensity = value["intensity"].number(1, 0);
+  double intensity = value["intensity"].number(1);
+  if (intensity < 0) {
+    value["intensity"].repaired("the intensity is negative: the light is dark");
+    intensity = 0;
+  }
   for (int c = 0; c < 3; ++c) {
     const double product = color[static_cast<std::size_t>(c)] * intensity;
     light.color[c] = static_cast<float>(color[static_cast<std::size_t>(c)]);
@@ -178,11 +198,11 @@ Light parse_light(const JsonAt& value, std::size_t i, Document& document) {
                                             value.path(), value["range"].number(0)));
   if (light.type == LightType::kSpot) {
     const JsonAt spot = value["spot"];
-    light.inner_cone_rad = static_cast<float>(spot["innerConeAngle"].number(0, 0, kPiD / 2));
-    light.outer_cone_rad = static_cast<float>(spot["outerConeAngle"].number(kPiD / 4, 0, kPiD / 2 + 1e-6));
-    if (light.inner_cone_rad >= light.outer_cone_rad)
-      spot.error(fmt::format("found innerConeAngle {}, expected less than outerConeAngle {}", light.inner_cone_rad,
-                             light.outer_cone_rad));
+    const double inner = spot["innerConeAngle"].number(0), outer = spot["outerConeAngle"].number(kPiD / 4);
+    light.outer_cone_rad = static_cast<float>(std::clamp(outer, 0.0, kPiD / 2));
+    light.inner_cone_rad = std::clamp(static_cast<float>(inner), 0.0f, light.outer_cone_rad);
+    if (inner < 0 || inner > outer || outer < 0 || outer > kPiD / 2 + 1e-6)
+      spot.repaired("cone angles are taken as 0 <= innerConeAngle <= outerConeAngle <= π/2 rad");
   }
   return light;
 }
@@ -312,18 +332,8 @@ void parse_nodes(const JsonAt& root, Document& document) {
   const JsonAt skins = root["skins"];
   for (std::size_t i = 0; i < skins.size(); ++i)
     document.skins.push_back(parse_skin(skins.at(i), nodes.size(), document));
-  std::size_t sheared = 0, last_sheared = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
     document.nodes.push_back(parse_node(nodes.at(i), nodes.size(), document));
-    if (document.nodes.back().has_matrix && places(document.nodes.back().matrix) &&
-        shears(document.nodes.back().matrix))
-      ++sheared, last_sheared = i;
-  }
-  if (sheared > 0)
-    document.warnings.push_back(
-        fmt::format("{}: {} matrices shear, which glTF does not allow, that of nodes[{}] among "
-                    "them; they are taken as they stand",
-                    document.file, sheared, last_sheared));
   check_tree(nodes, document);
   if (!root.document().status()) return;
   parse_scenes(root, document);

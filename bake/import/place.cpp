@@ -302,6 +302,7 @@ Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uin
     NodePose pose = waiting.back();  // holds the parent's matrix so far
     waiting.pop_back();
     const gltf::NodeDesc& node = document.nodes[pose.node];
+    if (node.hidden) continue;
     pose.world_from_node = pose.world_from_node * node.matrix;
     if (!finite(pose.world_from_node))
       return invalid(node_path(document, pose.node), "found a world transform that overflows, expected a finite one");

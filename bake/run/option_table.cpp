@@ -196,7 +196,8 @@ std::vector<Option> light_options(ImportOptions& import) {
        "says (extras.oriel.angular_diameter_deg), which is a point",
        number(import.sun_angle_deg, 0, 180), Use::kRare, "sun_angle_deg"},
       {"--ies", kLight,
-       "A measured luminaire (IES LM-63, type C) for the point or spot light of a node: it replaces intensity and "
+       "A measured luminaire (IES LM-63 of type C, or EULUMDAT) for the point or spot light of a node: it replaces "
+       "intensity and "
        "cone, the colour stays. Nadir is the node's -Z, horizontal 0 its +X. May be repeated",
        profiles(import), Use::kRare, "ies"},
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include "formats/core/file.h"
 #include "formats/core/text.h"
@@ -85,7 +86,13 @@ Result<SkyChoice> parse_sky(const std::string& text) {
 }
 
 Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std::string& text) {
-  const std::size_t equals = text.find('=');
+  // Both may hold a '=': it is split at the last one with a file behind it, or else at the last.
+  std::size_t equals = text.rfind('=');
+  for (std::size_t at = equals; at != std::string::npos && at > 0; at = text.rfind('=', at - 1))
+    if (std::filesystem::exists(text.substr(at + 1))) {
+      equals = at;
+      break;
+    }
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     return fail(ErrorCode::kUsage, "", "found '{}', expected NODE=FILE such as lamp=downlight.ies", text);
   return std::pair{text.substr(0, equals), std::filesystem::path(text.substr(equals + 1))};

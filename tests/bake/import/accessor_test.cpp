@@ -100,14 +100,33 @@ TEST(Accessor, InterleavedNormalizedAndSparse) {
   expect_refused(g, "sparse.indices");
 }
 
-TEST(Accessor, NotFiniteIsRefusedEvenWhereNobodyReads) {
+// A hole in a mesh would leak light; a normal, a tangent or a texture coordinate has a stand-in.
+TEST(Accessor, NotFiniteIsRefusedInPositionsOnly) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     Gltf g;
     g.add({{"attributes", {{"POSITION", g.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, bad, 0})}}}});
     expect_refused(g, "NaN or infinity");
     Gltf unread = triangle();
     unread.floats("VEC4", {0, 0, 0, bad});
-    expect_refused(unread, "accessors[1]");
+    const Imported unused = import(unread);
+    EXPECT_TRUE(unused.ok() && unused.warnings.empty()) << unused.error();
+    Gltf mended;
+    mended.material()["normalTexture"] = {{"index", 0}};
+    mended.doc["textures"] = {{{"source", 0}}};
+    mended.doc["images"] = {{{"uri", "missing.png"}}};
+    mended.add({{"material", 0},
+                {"attributes",
+                 {{"POSITION", mended.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0})},
+                  {"NORMAL", mended.floats("VEC3", {0, 0, 1, 0, bad, 1, 0, 0, 1})},
+                  {"TANGENT", mended.floats("VEC4", {1, 0, 0, 1, bad, bad, 0, 1, 1, 0, 0, 1})},
+                  {"TEXCOORD_0", mended.floats("VEC2", {0, 0, bad, 0, 0, 1})}}}});
+    const Imported r = import(mended);
+    ASSERT_TRUE(r.ok()) << r.error();
+    EXPECT_EQ(broken_promise(r.scene()), "");
+    EXPECT_TRUE(r.warned("attributes.NORMAL: 1 numbers are NaN or infinite, the first in element 1"));
+    EXPECT_TRUE(r.warned("attributes.TANGENT: 2 numbers"));
+    EXPECT_TRUE(r.warned("attributes.TEXCOORD_0: 1 numbers"));
+    for (const Vec3& n : r.scene().normals) EXPECT_EQ(n, Vec3(0, 0, 1));
   }
 }
 

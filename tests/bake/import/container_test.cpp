@@ -41,7 +41,21 @@ TEST(Container, EveryTruncationOfAGlbIsRefused) {
     ASSERT_FALSE(cut.ok()) << n;
     ASSERT_EQ(cut.result.error().code, ErrorCode::kInvalid) << n;
   }
-  EXPECT_FALSE(import_bytes(glb + "x").ok());
+}
+
+// Downloads and exporters leave bytes behind the end, marks before the JSON and zeros after it.
+TEST(Container, WhatIsAroundTheFileIsSkippedWithAWord) {
+  const Gltf g = triangle();
+  const Imported longer = import_bytes(g.glb() + "more");
+  ASSERT_TRUE(longer.ok()) << longer.error();
+  EXPECT_TRUE(longer.warned("4 bytes after the GLB's end are ignored"));
+  const Imported marked = import_bytes("\xEF\xBB\xBF" + g.text());
+  ASSERT_TRUE(marked.ok()) << marked.error();
+  EXPECT_TRUE(marked.warned("byte order mark"));
+  EXPECT_EQ(marked.scene().positions, longer.scene().positions);
+  const Imported padded = import_bytes(g.text() + std::string(3, '\0'));
+  ASSERT_TRUE(padded.ok()) << padded.error();
+  EXPECT_TRUE(padded.warned("zero bytes"));
 }
 
 TEST(Container, DeepJsonIsRefusedBeforeAnyoneRecurses) {

@@ -185,12 +185,39 @@ TEST(Nodes, MatricesMustDecompose) {
   const Imported good = import(g);
   ASSERT_TRUE(good.ok()) << good.error();
   EXPECT_NEAR(good.scene().origin.y, 7, 1e-9);
-  for (const json& bad :
-       {json{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, json{1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
-        json{1, 2, 3}, json{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, "x"}}) {
+  for (const json& bad : {json{1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, json{1, 2, 3},
+                          json{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, "x"}}) {
     matrix = bad;
     EXPECT_NE(import(g).error().find("nodes[0].matrix"), std::string::npos) << bad;
   }
+  matrix = {1, 0, 0, 1e-7, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 0.9999999};
+  const Imported rounded = import(g);
+  ASSERT_TRUE(rounded.ok()) << rounded.error();
+  EXPECT_TRUE(rounded.warned("nodes[0].matrix: the last row of the matrix is taken as 0, 0, 0, 1"));
+  EXPECT_NEAR(rounded.scene().origin.y, 6.5, 1e-5);
+  matrix = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 12, 14, 2};  // homogeneous
+  EXPECT_NEAR(import(g).scene().origin.y, 6.5, 1e-9);
+  matrix = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // flat, as a scale of 0 is
+  const Imported flat = import(g);
+  EXPECT_TRUE(flat.ok()) << flat.error();
+  g.doc["nodes"][0].erase("matrix");
+  g.doc["nodes"][0]["scale"] = {1, 0, 1};
+  EXPECT_EQ(flat.scene().triangles, import(g).scene().triangles);
+}
+
+// KHR_node_visibility: what hangs below a hidden node is hidden too.
+TEST(Nodes, HiddenOnesAreNotThere) {
+  Gltf g = triangle();
+  g.add_triangle()["name"] = "below";
+  g.use("KHR_node_visibility", true);
+  g.doc["nodes"].push_back(
+      {{"name", "hidden"}, {"children", {1}}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+  g.doc["scenes"][0]["nodes"] = {0, 2};
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_EQ(r.scene().surfaces.size(), 1u);
+  g.doc["nodes"][2]["extensions"]["KHR_node_visibility"]["visible"] = true;
+  EXPECT_EQ(import(g).scene().surfaces.size(), 2u);
 }
 
 // glTF forbids it, exporters of other formats write it, and every viewer shows it.
@@ -200,8 +227,7 @@ TEST(Nodes, MatricesThatShearStandAsTheyAre) {
   const Imported r = import(g);
   ASSERT_TRUE(r.ok()) << r.error();
   EXPECT_EQ(broken_promise(r.scene()), "");
-  EXPECT_TRUE(r.warned("1 matrices shear"));
-  EXPECT_TRUE(r.warned("nodes[0]"));
+  EXPECT_TRUE(r.warned("nodes[0].matrix: the matrix shears"));
   float farthest = 0;  // of (0, 0), (1, 0) and (0, 1) along the diagonal: the second comes to (1, 1)
   for (const Vec3& p : r.scene().positions)
     farthest = std::max(farthest, p.x + p.y - r.scene().lower.x - r.scene().lower.y);

@@ -55,8 +55,6 @@ TEST(Ies, EveryMistakeIsNamedWithItsLine) {
     const char *from, *to, *message;
   };
   for (const Case& c : std::initializer_list<Case>{
-           {"IESNA:LM-63-2002", "hello", "line 1: found 'hello'"},
-           {"TILT=NONE", "TILT=lamp.tlt", "line 4: found TILT=lamp.tlt"},
            {"TILT=NONE", "", "expected a line TILT="},
            {"1 1000 2", "one 1000 2", "line 5: found 'one'"},
            {"3 2 1 2", "3 2 2 2", "line 5: found photometric type 2 (B)"},
@@ -66,9 +64,7 @@ TEST(Ies, EveryMistakeIsNamedWithItsLine) {
            {"3 2 1 2", "nan 2 1 2", "found 'nan'"},
            {"0.5 1 40", "-0.5 1 40", "line 6: found '-0.5', expected the ballast factor"},
            {"0 45 90", "0 45 45", "line 7: found vertical angle 45 after 45"},
-           {"0 45 90", "0 45 80", "found vertical angles from 0 to 80"},
            {"0 90\n", "0 120\n", "found horizontal angles from 0 to 120"},
-           {"100 50 0", "100 -50 0", "line 9: found '-50', expected candela value 2 of 6"},
            {"100 50 0", "100 inf 0", "found 'inf'"},
            {"200, 100, 0\n", "200, 100\n", "found the end of the file, expected candela value 6 of 6"},
        }) {

@@ -79,12 +79,57 @@ TEST(Viewpoints, PunctualLights) {
   EXPECT_EQ(r.scene().lights[2].type, LightType::kDirectional);
   EXPECT_EQ(r.scene().lights[2].intensity, Vec3(1));
 
-  for (const char* bad : {R"({"type":"sun"})", R"({"type":"point","intensity":-1})",
-                          R"({"type":"spot","spot":{"innerConeAngle":0.3,"outerConeAngle":0.2}})",
-                          R"({"type":"point","color":[1,-1,0]})"}) {
-    g.doc["extensions"]["KHR_lights_punctual"]["lights"][0] = json::parse(bad).value();
+  json& first = g.doc["extensions"]["KHR_lights_punctual"]["lights"][0];
+  for (const char* bad : {R"({"type":"sun"})", R"({"type":"point","color":[1,-1,0]})"}) {
+    first = json::parse(bad).value();
     EXPECT_NE(import(g).error().find("lights[0]"), std::string::npos) << bad;
   }
+  // A hard edge; and angles that glTF does not allow, with a word.
+  struct Cone {
+    const char* spot;
+    float inner, outer;
+    bool warns;
+  };
+  for (const Cone& cone : {Cone{R"({"innerConeAngle":0.2,"outerConeAngle":0.2})", 0.2f, 0.2f, false},
+                           Cone{R"({"innerConeAngle":0.3,"outerConeAngle":0.2})", 0.2f, 0.2f, true},
+                           Cone{R"({"innerConeAngle":-1,"outerConeAngle":2})", 0, kPi / 2, true}}) {
+    first = {{"type", "spot"}, {"spot", json::parse(cone.spot).value()}};
+    const Imported spot = import(g);
+    ASSERT_TRUE(spot.ok()) << spot.error();
+    EXPECT_FLOAT_EQ(spot.scene().lights[0].inner_cone_rad, cone.inner);
+    EXPECT_FLOAT_EQ(spot.scene().lights[0].outer_cone_rad, cone.outer);
+    EXPECT_EQ(spot.warned("cone angles are taken as"), cone.warns) << cone.spot;
+  }
+  first = {{"type", "point"}, {"intensity", -1}};
+  EXPECT_TRUE(import(g).warned("lights[0].intensity: the intensity is negative"));
+  EXPECT_EQ(import(g).scene().lights[0].intensity, Vec3(0));
+}
+
+// Radians are often written as degrees.
+TEST(Viewpoints, CamerasThatCannotSeeAreLeftOut) {
+  Gltf g = with_camera();
+  ASSERT_EQ(import(g).scene().cameras.size(), 1u);
+  for (const double yfov : {0.0, 45.0, -1.0}) {
+    g.doc["cameras"][0]["perspective"]["yfov"] = yfov;
+    const Imported r = import(g);
+    ASSERT_TRUE(r.ok()) << r.error();
+    EXPECT_TRUE(r.scene().cameras.empty());
+    EXPECT_TRUE(r.warned("cameras[0].perspective.yfov: no angle between 0 and π rad"));
+  }
+}
+
+// An IES profile turns with its node, and is mirrored with it.
+TEST(Viewpoints, AxesOfLampsAreThoseOfTheirNode) {
+  Gltf g = triangle();
+  g.use("KHR_lights_punctual");
+  g.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  g.doc["nodes"].push_back({{"scale", {-1, 1, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  g.doc["scenes"][0]["nodes"].push_back(1);
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_EQ(r.scene().lights[0].right, Vec3(-1, 0, 0));
+  EXPECT_EQ(r.scene().lights[0].up, Vec3(0, 1, 0));
+  EXPECT_EQ(r.scene().lights[0].direction, Vec3(0, 0, -1));
 }
 
 TEST(Paths, TranslationKeys) {

@@ -1,7 +1,7 @@
 // Point, spot and directional lights against closed forms.
 #include <gtest/gtest.h>
 
-#include "bake/scene/ies.h"
+#include "bake/scene/ldt.h"
 #include "bake/trace/path.h"
 #include "bake/trace/warp.h"
 #include "tests/bake/support/scene_parts.h"
@@ -77,7 +77,8 @@ TEST(Profile, AnglesFollowTheNode) {
   EXPECT_NEAR(punctual_intensity(scene, light, {0, -s, -0.5f}).g, 0, 0.01);
   EXPECT_NEAR(punctual_intensity(scene, light, {s, 0, -0.5f}).g, 0, 0.01);
   light.direction = {0, -1, 0};
-  light.right = {0, 0, 1};  // node +Y = right × direction = +X
+  light.right = {0, 0, 1};
+  light.up = {1, 0, 0};
   EXPECT_NEAR(punctual_intensity(scene, light, {s, -0.5f, 0}).g, 100, 0.01);
 }
 
@@ -95,6 +96,94 @@ TEST(Profile, SymmetriesUnfold) {
     EXPECT_NEAR(profile_candela(p, 50, angle), expected, 1e-3) << angle;
   p.vertical_deg = {90, 180};
   EXPECT_EQ(profile_candela(p, 80, 100), 0);
+}
+
+// Headers as LM-63 of 1986 to 2019 and their writers have them: 1000 cd times 0.5, and 0.5 again before 2019.
+TEST(Ies, HeadersOfAllYearsAreRead) {
+  const std::string numbers = "\n1 -1 1 3 1 1 2 0 0 0\n.5 .5 20\n0 45 90\n0\n1000 1000 1000\n";
+  const auto candela = [](const std::string& text) {
+    const auto file = parse_ies(text, "lamp.ies");
+    return file ? file->profile.candela.front() : -1.0f;
+  };
+  for (const char* header :
+       {"IESNA:LM-63-2002\nTILT=NONE", "IESNA: LM-63-1995\n[TEST] x\nTILT=NONE", "iesna:lm-63-2002\ntilt=none",
+        "IESNA91\nTILT=NONE", "A luminaire of 1986\nTILT=NONE", "TILT=NONE",
+        "\xEF\xBB\xBFIESNA:LM-63-2002\nTILT = NONE ", "IESNA:LM-63-2002\nTILT=askew.tlt"})
+    EXPECT_EQ(candela(header + numbers), 250) << header;
+  EXPECT_EQ(candela("IESNA:LM-63-2019\nTILT=NONE" + numbers), 500);
+  std::string returns = "IESNA91\nTILT=NONE" + numbers;
+  std::ranges::replace(returns, '\n', '\r');
+  EXPECT_EQ(candela(returns), 250);
+  EXPECT_EQ(candela("IESNA91\nTILT=NONE\n1,-1,1,3,1,1,2,0,0,0\n.5;.5;2D1\n0 45\n90\n0\n1.0D3 1000\n1000"), 250);
+  const auto no_tilt = parse_ies("IESNA91" + numbers, "lamp.ies");
+  ASSERT_FALSE(no_tilt);
+  EXPECT_NE(no_tilt.error().text().find("expected a line TILT=NONE"), std::string::npos);
+}
+
+TEST(Ies, RangesOfAnglesAreCompleted) {
+  const auto profile = [](const std::string& angles) {
+    return parse_ies("IESNA91\nTILT=NONE\n1 -1 1 " + angles, "lamp.ies");
+  };
+  // 0 to 60: dark beyond.
+  const auto narrow = profile("2 1 1 2 0 0 0 1 1 20 0 60 0 7 7");
+  ASSERT_TRUE(narrow);
+  EXPECT_EQ(profile_candela(narrow->profile, 59, 0), 7);
+  EXPECT_EQ(profile_candela(narrow->profile, 61, 0), 0);
+  // 0 to 270 in steps of 90: 360 is 0 again.
+  const auto round = profile("2 4 1 2 0 0 0 1 1 20 0 90 0 90 180 270 1 1 2 2 3 3 4 4");
+  ASSERT_TRUE(round);
+  for (const auto& [angle, expected] : {std::pair{0.0f, 1.0f}, {90, 2}, {180, 3}, {270, 4}, {315, 2.5f}})
+    EXPECT_NEAR(profile_candela(round->profile, 45, angle), expected, 1e-4) << angle;
+  // 180 to 360 is the mirror image of 0 to 180.
+  const auto half = profile("2 3 1 2 0 0 0 1 1 20 0 90 180 270 360 1 1 2 2 3 -0.01");
+  ASSERT_TRUE(half);
+  for (const auto& [angle, expected] : {std::pair{0.0f, 3.0f}, {90, 2}, {180, 1}, {270, 2}, {315, 2.5f}})
+    EXPECT_NEAR(profile_candela(half->profile, 0, angle), expected, 1e-4) << angle;
+  EXPECT_EQ(profile_candela(half->profile, 90, 0), 0);
+  ASSERT_EQ(half->warnings.size(), 1u);
+  EXPECT_NE(half->warnings[0].find("1 of 6 candela values are negative"), std::string::npos);
+  EXPECT_FALSE(profile("2 2 1 2 0 0 0 1 1 20 0 90 0 45 1 1 2 2"));
+  EXPECT_FALSE(profile("2 1 2 2 0 0 0 1 1 20 0 90 0 1 1"));  // type B
+}
+
+// An EULUMDAT file of four planes, gamma 0 and 90: intensities per 1000 lm of a lamp of 2000 lm.
+std::string eulumdat(int symmetry, const std::string& intensities) {
+  std::string text = "Maker\r\n1\r\n" + std::to_string(symmetry) + "\r\n4\r\n90\r\n2\r\n90\r\n";
+  for (int i = 0; i < 16; ++i) text += "0\r\n";
+  text += "100\r\n1,0\r\n0\r\n1\r\n1\r\nLED\r\n2000\r\n3000\r\n80\r\n20\r\n";
+  for (int i = 0; i < 10; ++i) text += "0.5\r\n";
+  return text + "0\r\n90\r\n180\r\n270\r\n0\r\n90\r\n" + intensities;
+}
+
+TEST(Eulumdat, SymmetriesUnfold) {
+  struct Case {
+    int symmetry;
+    const char* intensities;     // of the planes that the file holds
+    std::array<float, 4> plane;  // at C 0, 90, 180 and 270, cd
+  };
+  for (const Case& c : {Case{0, "1\n1\n2\n2\n3\n3\n4\n4\n", {2, 4, 6, 8}}, Case{1, "1\n1\n", {2, 2, 2, 2}},
+                        Case{2, "1\n1\n2\n2\n3\n3\n", {2, 4, 6, 4}}, Case{3, "4\n4\n1\n1\n2\n2\n", {2, 4, 2, 8}},
+                        Case{4, "1\n1\n2\n2\n", {2, 4, 2, 4}}}) {
+    const auto file = parse_ldt(eulumdat(c.symmetry, c.intensities), "lamp.ldt");
+    ASSERT_TRUE(file) << c.symmetry << file.error().text();
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(profile_candela(file->profile, 45, 90.0f * static_cast<float>(i)), c.plane[i], 1e-4)
+          << c.symmetry << " plane " << i;
+  }
+}
+
+TEST(Eulumdat, FluxIsThatOfTheLamp) {
+  // Lambertian: 1000 lm give 1000/π cd along the axis; two angles make it linear, of flux 2π · I0 (1 - 2/π).
+  const auto file = parse_ldt(eulumdat(1, "100\n-0.5\n"), "lamp.ldt");
+  ASSERT_TRUE(file);
+  EXPECT_NEAR(profile_flux(file->profile), 2 * kPiD * 200 * (1 - 2 / kPiD), 1e-3);
+  for (const char* bad : {"1\n", "1\nx\n", "1\n1e99\n"}) {
+    const auto refused = parse_ldt(eulumdat(1, bad), "lamp.ldt");
+    ASSERT_FALSE(refused) << bad;
+    EXPECT_NE(refused.error().text().find("lamp.ldt: line 5"), std::string::npos) << refused.error().text();
+  }
+  EXPECT_FALSE(parse_ldt("", "lamp.ldt"));
+  EXPECT_FALSE(parse_ldt(eulumdat(5, ""), "lamp.ldt"));
 }
 
 // A pin spot of a degree shines on its axis as bright as it says, and nowhere beside.
