@@ -14,6 +14,11 @@ using Clock = std::chrono::steady_clock;
 constexpr double kRaysAUnit = 1 << 17;  // a tenth of a second of one CPU: a thousand times what storing them takes
 constexpr auto kPatience = std::chrono::milliseconds(20);  // between looks at what others are computing
 
+// What no inputs of a stage name is computed, not kept: units of other scenes would have the same names.
+bool keeps(const Context& context) {
+  return context.units && context.inputs != Hash128();
+}
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -108,7 +113,7 @@ class Units {
 
 Status parallel_units(const Stage& stage, const UnitLoop& loop) {
   Context& context = stage.context;
-  if (!context.units) {
+  if (!keeps(context)) {
     ORIEL_TRY_VOID(parallel_for(stage, loop.stage, loop.count, [&](std::size_t i) { stage.count(loop.compute(i)); }));
     // An item may have ended meanwhile with half of its work.
     return context.stopped() ? fail(ErrorCode::kStopped, std::string(loop.stage), "stopped") : Status();
@@ -134,7 +139,7 @@ bool recall_item(Context& context, const Hash128& inputs, const UnitLoop& loop, 
 
 Status one_unit(Context& context, std::string_view stage, const std::function<void(Archive&)>& inputs,
                 const std::function<Status()>& compute, const std::function<void(Archive&)>& results) {
-  if (!context.units) return compute();
+  if (!keeps(context)) return compute();
   Hasher hasher;
   Archive archive(hasher);
   archive(context.inputs, std::string(stage));

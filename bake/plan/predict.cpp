@@ -5,6 +5,7 @@
 
 #include "bake/run/assemble.h"
 #include "bake/run/fit_maps.h"
+#include "bake/run/inputs.h"
 #include "formats/pack/writer.h"
 
 namespace oriel {
@@ -84,6 +85,8 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   ORIEL_TRY(const auto texel_map, build_texel_map(pilot.atlas, context));
   const ElapsedTime clock;
   const Transport transport{*in.prepared.accel, in.lights, path_options(in.options)};
+  const StageInputs inputs(context, SurfacesOf{in.prepared.scene()}, LightsOf{in.prepared.scene()},
+                           LayoutOf{pilot.atlas}, transport.options.max_bounces);
   ORIEL_TRY(pilot.radiosity, bake_radiosity({transport, pilot.atlas, texel_map}, pilot_options(in), context));
   pilot.seconds = clock.spent();
   pilot.texels = texels_of(texel_map);

@@ -69,7 +69,7 @@ Result<ViewImportance> find_view_importance(const Accel& accel, const EyeRegion&
   const float nearest = anywhere ? std::min(options.nearest_m, 0.1f * scene.radius()) : options.nearest_m;
   std::vector<std::vector<Sight>> seen(eyes.size());
   UnitLoop loop{.stage = "importance", .count = eyes.size(), .rays = 2.0 * options.directions};
-  loop.inputs = [&](std::size_t e, Archive& key) { key(eyes[e], options.directions, nearest); };
+  loop.inputs = [&](std::size_t e, Archive& key) { key(e, eyes[e], options.directions, nearest); };
   loop.compute = [&](std::size_t e) {
     std::vector<Ray> rays;
     std::vector<Hit> hits(options.directions);

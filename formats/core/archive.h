@@ -45,6 +45,8 @@ class Archive {
   bool ok() const { return ok_; }
   // And nothing else is.
   bool complete() const { return ok_ && from_.empty(); }
+  // Of reading: bytes that break this are those of another thing.
+  void require(bool fits) { ok_ = ok_ && fits; }
 
  private:
   template <class T>

@@ -286,9 +286,13 @@ Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const
       archive(texels.sample_points[i], texels.visible[i], texels.area_m2[i], texels.albedo[i], texels.diffuse_share[i]);
     std::uint64_t count = hidden[run].size();
     archive(count);
+    while (hidden[run].size() > count) hidden[run].pop_back();
     while (hidden[run].size() < std::min<std::uint64_t>(count, kRun))
       hidden[run].push_back({0, {TexelPart(t.accel), {}}});
-    for (auto& [i, found] : hidden[run]) archive(i, found.part, found.points);
+    for (auto& [i, found] : hidden[run]) {
+      archive(i, found.part, found.points);
+      archive.require(i < n && i / kRun == run);
+    }
   };
   ORIEL_TRY_VOID(parallel_units(stage, loop));
   for (auto& run : hidden)

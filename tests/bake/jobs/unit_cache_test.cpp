@@ -202,9 +202,21 @@ struct Squares {
       return i;
     };
     loop.results = [&](std::size_t i, Archive& archive) { archive(of[i]); };
+    const StageInputs inputs(context, context.inputs);
     return parallel_units({context, &rays}, loop);
   }
 };
+
+TEST_F(UnitCacheTest, WhatNoInputsNameIsNotKept) {
+  UnitCache store = cache();
+  Context context;
+  context.units = &store;
+  int computed = 0;
+  for (int i = 0; i < 2; ++i)
+    ASSERT_TRUE(one_unit(
+        context, "nameless", [](Archive&) {}, [&] { return ++computed, Status(); }, [](Archive&) {}));
+  EXPECT_EQ(computed, 2);
+}
 
 TEST_F(UnitCacheTest, LoopsFindTheirUnitsAndTheirRays) {
   for (const bool warm : {false, true}) {
