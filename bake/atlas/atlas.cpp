@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bake/atlas/congruent.h"
 #include "bake/atlas/layout.h"
 #include "bake/atlas/texel_map.h"
 #include "bake/atlas/uv1.h"
@@ -77,6 +78,12 @@ struct ChartedSurfaces {
   const std::vector<std::uint32_t>& surfaces;
 };
 
+// The charts of a surface for a congruent one.
+ChartSet moved(ChartSet charts, const Surface& from, const Surface& to) {
+  for (std::uint32_t& t : charts.triangles) t += to.first_triangle - from.first_triangle;
+  return charts;
+}
+
 Status place_automatic(const ChartedSurfaces& charted, const AtlasOptions& options, const TexelDemand& demand,
                        Context& context, Atlas& atlas) {
   const Scene& scene = charted.scene;
@@ -99,9 +106,12 @@ Status place_automatic(const ChartedSurfaces& charted, const AtlasOptions& optio
                                    &deadline,
                                    demand.empty() ? nullptr : &demand};
   std::vector<ChartSet> sets(surfaces.size());
+  const std::vector<std::uint32_t> first = first_congruent(scene, surfaces, chart_options.demand);
   ORIEL_TRY_VOID(parallel_for(context, "atlas", surfaces.size(), [&](std::size_t i) {
-    sets[i] = grow_charts(scene, scene.surfaces[surfaces[i]], chart_options, context);
+    if (first[i] == i) sets[i] = grow_charts(scene, scene.surfaces[surfaces[i]], chart_options, context);
   }));
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    if (first[i] != i) sets[i] = moved(sets[first[i]], scene.surfaces[surfaces[first[i]]], scene.surfaces[surfaces[i]]);
   if (context.stopped()) return fail(ErrorCode::kStopped, "atlas", "stopped");
   atlas.report.time_limit_struck = deadline.struck();
   if (deadline.struck())

@@ -245,7 +245,7 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY(PosedNodes nodes, pose_nodes(document, roots));
   out.scene.materials = document.materials;
   ORIEL_TRY(nodes.movers, find_movers(nodes, options.movers, context));
-  ORIEL_TRY_VOID(place_meshes(nodes, meshes, accessors, out.scene, context));
+  ORIEL_TRY_VOID(place_meshes(nodes, meshes, accessors, options.most_triangles, {out.scene, context}));
   join_seams(out.scene);
   if (options.double_sided)
     for (SceneMaterial& material : out.scene.materials) material.double_sided = true;

@@ -27,6 +27,7 @@ struct ImportOptions {
   // Node (or light) name and IES file: the profile of its point or spot light.
   std::vector<std::pair<std::string, std::filesystem::path>> ies;
   std::uint64_t max_bytes = std::uint64_t{16} << 30;  // refuse files and allocations beyond it
+  std::uint64_t most_triangles = 0;  // with all instances; of more, repeated meshes get fewer. 0: no limit
 };
 
 struct ImportedScene {

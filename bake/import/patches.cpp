@@ -8,11 +8,12 @@ namespace {
 
 constexpr int kMostLayers = 8;                // then they share a place again
 constexpr double kOverlap = 1e-3;             // of the smaller triangle: less is a common edge
+constexpr std::size_t kFew = 8;               // triangles of a plane: their pairs take less than finding patches
 constexpr std::size_t kMostPairs = 1u << 26;  // of triangles of one plane that are compared
 
 using Polygon = std::vector<DVec2>;
 
-double area_of(const Polygon& p) {
+double area_of(std::span<const DVec2> p) {
   double twice = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const DVec2 &a = p[i], &b = p[(i + 1) % p.size()];
@@ -45,7 +46,31 @@ bool lets_through(const SceneMaterial& material) {
   return material.alpha_mode != AlphaMode::kOpaque || material.transmission > 0;
 }
 
+// Whether a few triangles cannot lie in one place: each two hang together or are further apart than a lift.
+bool PlanePatches::all_apart(std::span<const Planar> triangles) const {
+  if (triangles.size() > kFew) return false;
+  const auto corner = [&](std::size_t i, int k) {
+    return scene_.positions[scene_.triangles[triangles[i].triangle][k]];
+  };
+  const auto of = [&](std::size_t i) { return scene_.triangle_surface[triangles[i].triangle]; };
+  const Vec3 lift(static_cast<float>(2 * lift_));
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (oriel::lets_through(scene_.materials[scene_.surfaces[of(i)].material])) return false;
+    const Vec3 lower = glm::min(glm::min(corner(i, 0), corner(i, 1)), corner(i, 2)) - lift,
+               upper = glm::max(glm::max(corner(i, 0), corner(i, 1)), corner(i, 2)) + lift;
+    for (std::size_t k = 0; k < i; ++k) {
+      bool joined = false;
+      for (int c = 0; c < 9 && of(i) == of(k); ++c) joined |= corner(i, c / 3) == corner(k, c % 3);
+      const Vec3 from = glm::min(glm::min(corner(k, 0), corner(k, 1)), corner(k, 2)),
+                 to = glm::max(glm::max(corner(k, 0), corner(k, 1)), corner(k, 2));
+      if (!joined && glm::all(glm::lessThanEqual(from, upper)) && glm::all(glm::lessThanEqual(lower, to))) return false;
+    }
+  }
+  return true;
+}
+
 std::vector<Layer> PlanePatches::layers(std::span<const Planar> triangles) {
+  if (all_apart(triangles)) return {};
   triangles_.assign(triangles.begin(), triangles.end());
   find_patches();
   if (patches_.size() < 2 && !patches_.front().lets_through) return {};
@@ -74,16 +99,23 @@ bool PlanePatches::has_elsewhere(std::uint32_t vertex, std::uint32_t patch) cons
 // Triangles of a surface that have a corner in common.
 DisjointSets PlanePatches::connected() const {
   DisjointSets sets(triangles_.size());
-  std::unordered_map<Vec3, std::uint32_t, PositionHash> at;
-  std::uint32_t of_surface = ~0u;
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    const std::uint32_t t = triangles_[i].triangle;
-    if (scene_.triangle_surface[t] != of_surface) at.clear();
-    of_surface = scene_.triangle_surface[t];
-    for (int k = 0; k < 3; ++k) {
-      const auto [found, is_new] = at.try_emplace(scene_.positions[scene_.triangles[t][k]], i);
-      if (!is_new) sets.join(i, found->second);
-    }
+  std::vector<std::tuple<std::size_t, Vec3, std::uint32_t>> corners;  // by the hash of the position
+  const auto surface_of = [&](std::uint32_t i) { return scene_.triangle_surface[triangles_[i].triangle]; };
+  for (std::uint32_t first = 0, last = 0; first < triangles_.size(); first = last) {
+    corners.clear();
+    for (; last < triangles_.size() && surface_of(last) == surface_of(first); ++last)
+      for (int k = 0; k < 3; ++k) {
+        const Vec3& p = scene_.positions[scene_.triangles[triangles_[last].triangle][k]];
+        corners.emplace_back(PositionHash()(p), p, last);
+      }
+    if (last - first == 1) continue;
+    std::ranges::sort(corners, {}, [](const auto& corner) { return std::get<0>(corner); });
+    for (std::size_t a = 0; a < corners.size(); ++a)
+      for (std::size_t b = a + 1; b < corners.size() && std::get<0>(corners[b]) == std::get<0>(corners[a]); ++b)
+        if (std::get<1>(corners[b]) == std::get<1>(corners[a])) {
+          sets.join(std::get<2>(corners[a]), std::get<2>(corners[b]));
+          break;
+        }
   }
   return sets;
 }
@@ -120,17 +152,19 @@ PlanePatches::Flat PlanePatches::flattened(std::uint32_t triangle) const {
     const Vec3& p = scene_.positions[scene_.triangles[triangle][k]];
     f.corners[static_cast<std::size_t>(k)] = DVec2(p[(drop_ + 1) % 3], p[(drop_ + 2) % 3]);
   }
-  f.area = area_of({f.corners.begin(), f.corners.end()});
+  f.area = area_of(f.corners);
   if (f.area < 0) std::swap(f.corners[1], f.corners[2]), f.area = -f.area;
   f.lower = glm::min(glm::min(f.corners[0], f.corners[1]), f.corners[2]);
   f.upper = glm::max(glm::max(f.corners[0], f.corners[1]), f.corners[2]);
   return f;
 }
 
+bool PlanePatches::boxes_meet(const Flat& a, const Flat& b) {
+  return a.lower.x < b.upper.x && b.lower.x < a.upper.x && a.lower.y < b.upper.y && b.lower.y < a.upper.y;
+}
+
 bool PlanePatches::overlap(const Flat& a, const Flat& b) {
-  if (a.lower.x >= b.upper.x || b.lower.x >= a.upper.x || a.lower.y >= b.upper.y || b.lower.y >= a.upper.y)
-    return false;
-  return shared_area(a.corners, b.corners) >= kOverlap * std::min(a.area, b.area);
+  return boxes_meet(a, b) && shared_area(a.corners, b.corners) >= kOverlap * std::min(a.area, b.area);
 }
 
 // How far k lies before i, m, if they are parallel and no further apart than a layer is moved: by the corners of the
@@ -165,7 +199,7 @@ void PlanePatches::find_overlaps() {
 
 void PlanePatches::compare(std::uint32_t i, std::uint32_t k) {
   const Flat &a = flat_[i], &b = flat_[k];
-  if (a.patch == b.patch || patches_[a.patch].overlaps.contains(b.patch)) return;
+  if (a.patch == b.patch || !boxes_meet(a, b) || patches_[a.patch].overlaps.contains(b.patch)) return;
   if (surface(i).mover != surface(k).mover || !overlap(a, b)) return;
   const std::optional<double> d = rise(i, k);
   if (!d) return;

@@ -67,10 +67,12 @@ class PlanePatches {
   const Surface& surface(std::uint32_t member) const {
     return scene_.surfaces[scene_.triangle_surface[triangles_[member].triangle]];
   }
+  bool all_apart(std::span<const Planar> triangles) const;
   DisjointSets connected() const;
   void find_patches();
   void project();
   Flat flattened(std::uint32_t triangle) const;
+  static bool boxes_meet(const Flat& a, const Flat& b);
   static bool overlap(const Flat& a, const Flat& b);
   std::optional<double> rise(std::uint32_t i, std::uint32_t k) const;
   void find_overlaps();

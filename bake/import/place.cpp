@@ -8,6 +8,7 @@
 
 #include "bake/import/deform.h"
 #include "bake/import/node_names.h"
+#include "bake/import/simplify.h"
 #include "bake/import/warning_group.h"
 
 namespace oriel {
@@ -18,6 +19,7 @@ using gltf::LoadedMesh;
 using gltf::TriangleMesh;
 
 constexpr double kLargestScene = 1e9, kSmallestScene = 1e-9;  // metres
+constexpr std::uint64_t kFarTooMany = 3;                      // times the triangles for which there is time
 constexpr double kWarnShare = 0.01;                           // of corners with a normal on the wrong side
 
 struct Instance {
@@ -267,6 +269,41 @@ Status reserve(const Document& document, std::span<const Instance> instances, gl
   return {};
 }
 
+std::uint64_t triangles_of(const LoadedMesh& mesh) {
+  std::uint64_t count = 0;
+  for (const TriangleMesh& part : mesh.primitives) count += part.triangles.size();
+  return count;
+}
+
+// Simplifies meshes that stand in several places, into `simple`, so that all of them have at most so many triangles.
+Status limit_triangles(const Document& document, std::uint64_t most, Context& context, std::vector<Instance>& instances,
+                       std::deque<LoadedMesh>& simple) {
+  std::map<const LoadedMesh*, std::pair<std::uint64_t, const LoadedMesh*>> meshes;  // how often, and what instead
+  for (const Instance& instance : instances) ++meshes[instance.mesh].first;
+  std::uint64_t all = 0, repeated = 0, left = 0;
+  for (const auto& [mesh, use] : meshes)
+    all += use.first * triangles_of(*mesh), repeated += use.first > 1 ? use.first * triangles_of(*mesh) : 0;
+  if (all <= most) return {};
+  const double share = (1.0 * most - std::min(1.0 * most, 1.0 * (all - repeated))) / std::max(1.0 * repeated, 1.0);
+  for (auto& [mesh, use] : meshes) {
+    use.second = use.first > 1 ? &simple.emplace_back(simplified(*mesh, share)) : mesh;
+    left += use.first * triangles_of(*use.second);
+  }
+  if (left > kFarTooMany * most)
+    return invalid(
+        document.file,
+        "found {} triangles with all instances; reading them alone takes longer than --time, which is enough "
+        "for {}: give more time, or fewer triangles",
+        all, most);
+  for (Instance& instance : instances) instance.mesh = meshes[instance.mesh].second;
+  if (left < all)
+    context.warning({fmt::format("{} triangles with all instances take too long for --time: meshes that stand in "
+                                 "several places are shown coarser, {} triangles in all; more time keeps them",
+                                 all, left),
+                     WarningKind::kTimeOver});
+  return {};
+}
+
 std::uint32_t material_of(const TriangleMesh& mesh, std::optional<std::uint32_t>& default_material, Scene& scene) {
   if (mesh.material >= 0) return static_cast<std::uint32_t>(mesh.material);
   if (!default_material) {
@@ -315,10 +352,13 @@ Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uin
 }
 
 Status place_meshes(const PosedNodes& nodes, std::span<const LoadedMesh> meshes, gltf::AccessorReader& accessors,
-                    Scene& scene, Context& context) {
+                    std::uint64_t most_triangles, PlacedScene placed) {
+  auto& [scene, context] = placed;
   const Document& document = nodes.document;
   std::deque<RestShape> shapes;
-  ORIEL_TRY(const std::vector<Instance> instances, find_instances(nodes, meshes, accessors, shapes));
+  ORIEL_TRY(std::vector<Instance> instances, find_instances(nodes, meshes, accessors, shapes));
+  std::deque<LoadedMesh> simple;
+  if (most_triangles > 0) ORIEL_TRY_VOID(limit_triangles(document, most_triangles, context, instances, simple));
   ORIEL_TRY_VOID(reserve(document, instances, accessors.budget(), scene));
   ORIEL_TRY(scene.origin, find_origin(document, instances));
   bool with_colors = false, with_tangents = false;

@@ -8,6 +8,15 @@ std::vector<std::string> texts_of(const std::vector<Warning>& warnings) {
   return texts;
 }
 
+Result<bool> done_in_time(Context& context, const std::function<bool()>& enough, const std::function<Status()>& work) {
+  if (!enough) return work().map([] { return true; });
+  const Interruptible until(context, enough);
+  const Status ended = work();
+  if (ended) return true;
+  if (ended.error().code != ErrorCode::kStopped || context.stop) return tl::unexpected(ended.error());
+  return false;
+}
+
 void Context::warning(const Warning& warning) {
   const std::lock_guard lock(mutex_);
   if (warn) warn(warning);

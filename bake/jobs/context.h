@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -44,6 +45,16 @@ struct Warning {
 std::vector<std::string> texts_of(const std::vector<Warning>& warnings);
 
 class UnitStore;  // units.h
+
+// The wall clock since it was made.
+class ElapsedTime {
+ public:
+  double spent() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }  // seconds
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
 
 // Shared by all stages of one bake. Every member function may be called from any thread.
 class Context {
@@ -98,6 +109,9 @@ class Interruptible {
  private:
   Context& context_;
 };
+
+// Does work that may end anywhere: whether it ended by itself, before enough() was true. Without enough() it does.
+Result<bool> done_in_time(Context& context, const std::function<bool()>& enough, const std::function<Status()>& work);
 
 // While it lives, keeps what the context is warned of; and tells it on, or not.
 class WarningLog {

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numbers>
+#include <numeric>
 #include <thread>
 
 #include "bake/jobs/parallel.h"
 
 namespace oriel {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double kRaysAUnit = 1 << 17;  // a tenth of a second of one CPU: a thousand times what storing them takes
 constexpr auto kPatience = std::chrono::milliseconds(20);  // between looks at what others are computing
@@ -22,6 +22,20 @@ bool keeps(const Context& context) {
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+// The i-th of `count` items in an order that spreads over all of them, so that what is done of a loop that ends early
+// is everywhere: multiples of the golden section (Weyl).
+class Scattered {
+ public:
+  explicit Scattered(std::size_t count)
+      : count_(count), step_(static_cast<std::size_t>((std::numbers::phi - 1) * static_cast<double>(count)) | 1) {
+    while (std::gcd(step_, count_) > 1) ++step_;
+  }
+  std::size_t operator[](std::size_t i) const { return i * step_ % count_; }
+
+ private:
+  std::size_t count_, step_;
+};
 
 // Fills what `write` writes from bytes that it wrote once. Where they are not those, all stays as it was.
 bool restore(const Bytes& from, const std::function<void(Archive&)>& write) {
@@ -67,14 +81,14 @@ class Units {
       context_.units->leave(name);
       return true;
     }
-    const auto start = Clock::now();
+    const ElapsedTime clock;
     std::uint64_t traced = 0;
     for (std::size_t i = first(unit); i < last(unit) && !context_.stopped(); ++i) traced += loop_.compute(i);
     stage_.count(traced);
     if (context_.stopped())
       context_.units->leave(name);  // it may be a part only
     else
-      context_.units->keep(name, {written([&](Archive& a) { results(unit, traced, a); }), seconds_since(start)});
+      context_.units->keep(name, {written([&](Archive& a) { results(unit, traced, a); }), clock.spent()});
     return true;
   }
 
@@ -114,13 +128,17 @@ class Units {
 Status parallel_units(const Stage& stage, const UnitLoop& loop) {
   Context& context = stage.context;
   if (!keeps(context)) {
-    ORIEL_TRY_VOID(parallel_for(stage, loop.stage, loop.count, [&](std::size_t i) { stage.count(loop.compute(i)); }));
+    const Scattered item(loop.count);
+    ORIEL_TRY_VOID(
+        parallel_for(stage, loop.stage, loop.count, [&](std::size_t i) { stage.count(loop.compute(item[i])); }));
     // An item may have ended meanwhile with half of its work.
     return context.stopped() ? fail(ErrorCode::kStopped, std::string(loop.stage), "stopped") : Status();
   }
   Units units(stage, loop);
   std::vector<std::uint8_t> finished(units.count());
-  ORIEL_TRY_VOID(parallel_for(stage, loop.stage, units.count(), [&](std::size_t u) { finished[u] = units.finish(u); }));
+  const Scattered unit(units.count());
+  ORIEL_TRY_VOID(parallel_for(stage, loop.stage, units.count(),
+                              [&](std::size_t i) { finished[unit[i]] = units.finish(unit[i]); }));
   for (;;) {
     if (context.stopped()) return fail(ErrorCode::kStopped, std::string(loop.stage), "stopped");
     std::vector<std::size_t> left;
@@ -158,10 +176,10 @@ Status one_unit(Context& context, std::string_view stage, const std::function<vo
     context.units->leave(name);
     return {};
   }
-  const auto start = Clock::now();
+  const ElapsedTime clock;
   const Status status = compute();
   if (status && !context.stopped())
-    context.units->keep(name, {written(results), seconds_since(start)});
+    context.units->keep(name, {written(results), clock.spent()});
   else
     context.units->leave(name);
   return status;

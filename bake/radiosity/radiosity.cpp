@@ -27,6 +27,8 @@ constexpr double kStitchShare = 0.6;           // of the error requested: limit 
 constexpr std::size_t kPixels = 1 << 16;       // for the stated error, and as many held out
 constexpr std::uint32_t kDefaultViews = 1024;  // view positions where none is given
 
+constexpr float kAssumed =
+    0.5f;  // relative error of light that is that of near texels: rather too much, nothing measures it
 constexpr double kMeets = 0.05;  // relative difference of two sides of a seam, half
 
 constexpr double kTolerated = 1.1;         // factor of the error requested, for the held-out error
@@ -86,12 +88,22 @@ std::vector<std::vector<bool>> cells_at(const Seams& seams, std::span<const Ligh
 }
 
 Status stitch_lightmap(const RadiosityTask& task, Radiosity& light) {
-  ORIEL_TRY(const Seams seams, find_seams(task.transport, task.atlas, light.pages, task.quick));
-  if (seams.points.empty()) return {};
+  const auto over = [&] { return task.options.left_of_all() <= 0; };
+  Seams seams;
+  ORIEL_TRY(const bool found,
+            done_in_time(task.context, task.options.left_of_all ? over : std::function<bool()>(), [&]() -> Status {
+              ORIEL_TRY(seams, find_seams(task.transport, task.atlas, light.pages, task.quick));
+              return {};
+            }));
+  if (found && seams.points.empty()) return {};
   const auto power = [&] { return luminance(Vec3(incident_power(task, light))); };
   const double before = power(), error = task.options.error;
   const double at_most = error > 0 ? kStitchShare * error : std::numeric_limits<double>::infinity();
-  light.report.seams = stitch(seams, task.map, at_most, light.pages);
+  if (found) light.report.seams = stitch(seams, task.map, at_most, light.pages, task.options.left_of_all);
+  if (!found || light.report.seams.late)
+    task.context.warning(
+        {"the seams of the lightmap are not stitched: --time left none for that; a longer one stitches them",
+         WarningKind::kTimeOver});
   light.at_seam = cells_at(seams, light.pages);
   if (before > 0) light.report.seams.energy_change = power() / before - 1;
   return {};
@@ -162,6 +174,17 @@ void add_up_groups(std::vector<Vec3> LightmapPage::*values, std::size_t page, Ra
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += (pages[page].*values)[i];
 }
 
+// What texels show for want of time counts, with an error.
+void settle_assumed(Radiosity& light) {
+  for (std::size_t p = 0; p < light.assumed.size(); ++p)
+    for (const std::uint32_t texel : light.assumed[p]) {
+      LightmapPage& page = light.pages[p];
+      page.state[texel] = TexelState::kValid;
+      page.standard_error[texel] = kAssumed * page.irradiance[texel];
+      ++light.report.assumed;
+    }
+}
+
 // Fills hidden texels and those beyond charts from their neighbours, and makes light continuous across seams.
 Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   if (task.options.hidden == Hidden::kBlack) return {};
@@ -176,13 +199,8 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
       dilate(task.options.dilation, *page);
     }
   }
+  settle_assumed(light);
   if (!task.options.stitch || is_dark(task.transport)) return {};
-  if (task.options.over && task.options.over()) {
-    task.context.warning(
-        {"the seams of the lightmap are not stitched: --time left none for that; a longer one stitches them",
-         WarningKind::kTimeOver});
-    return {};
-  }
   return stitch_lightmap(task, light);
 }
 
@@ -325,6 +343,12 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
     goal = *next;
   }
   light.report.rays = rays + quick_rays + light.report.detail.rays;
+  if (light.report.assumed > 0)
+    context.warning(
+        {fmt::format("{} of {} texels show the light of near ones: --time left none for their own; more time, "
+                     "or a larger --texel, gives it",
+                     light.report.assumed, light.report.texels),
+         WarningKind::kTimeOver});
   if (options.hidden == Hidden::kBlack) darken_all_hidden(task, light);
   return light;
 }

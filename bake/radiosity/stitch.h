@@ -17,7 +17,9 @@ namespace oriel {
 // relative to light (and 1 % of the mean), is at most `at_most`: charts of a texel or two cannot match all the light
 // along their outline, and a mended seam would be an error elsewhere. The result is finite and not negative. Empty
 // texels are neither read nor changed. pages: filled and dilated. The caller sets SeamReport::energy_change.
+//
+// left_s: seconds that there are; empty: no limit. Where a solution would take longer, nothing is changed.
 SeamReport stitch(const Seams& seams, std::span<const TexelMapPage> texel_map, double at_most,
-                  std::vector<LightmapPage>& pages);
+                  std::vector<LightmapPage>& pages, const std::function<double()>& left_s = {});
 
 }  // namespace oriel

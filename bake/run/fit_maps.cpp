@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t kTried = 8;       // by which a map's sides are divided to time its capture
 constexpr std::uint32_t kLeastSide = 16;  // of a map that is made smaller
+constexpr double kTriangleBytes = 12;     // of a pack, about: checked and written
 constexpr double kJudging = 0.3;          // of the seconds of planning: residual maps and held-out eyes
 
 // What capturing all surround maps takes, by a 64th of their texels.
@@ -86,9 +87,9 @@ void shrink_maps(double seconds, PlannedReflections& planned) {
         fmt::format("radiance maps: of 1/{} the pixels along each side, to stay within --time", 1u << halved));
 }
 
-double bytes_of(const Pack& pack, const PlannedReflections& planned) {
-  double bytes = 0;
-  for (const LightmapPage& page : pack.lightmaps) bytes += 8.0 * static_cast<double>(page.irradiance.size());
+double bytes_of(const PreparedScene& prepared, const PlannedReflections& planned) {
+  double bytes = kTriangleBytes * static_cast<double>(prepared.scene().triangles.size());
+  for (const AtlasPage& page : prepared.atlas.pages) bytes += 8.0 * page.width * page.height;
   for (const RadianceMap& map : planned.plan.maps) bytes += double{kMapBytesPerPixel} * map.width * map.height;
   return bytes;
 }
@@ -107,19 +108,15 @@ Result<double> fit_reflections(const BakeTask& bake, const TimeBudget& budget, P
   Pack dark;
   if (planned.has_images()) {
     const double until = budget.left() - budget.for_timing();
-    const auto late = [&] { return budget.left() < until; };
-    Status tried;
-    {
-      const Interruptible interruptible(bake.context, late);
-      tried = time_reflections(bake, dark, planned);
-    }
-    if (!tried && (bake.context.stop || !late())) return tl::unexpected(tried.error());
+    ORIEL_TRY(const bool tried, done_in_time(
+                                    bake.context, [&] { return budget.left() < until; },
+                                    [&] { return time_reflections(bake, dark, planned); }));
     if (!tried)
       leave_out_maps({"a few of their pixels already take too long for --time", WarningKind::kTimeOver}, planned);
     shrink_maps(budget.for_maps(), planned);
   }
   const double field = bake.options.with_transfer && bake.prepared.wants_light_field() ? budget.for_light_field() : 0;
-  return TimeBudget::kept_for(planned.capture_s + TimeBudget::writing(bytes_of(dark, planned))) + field;
+  return TimeBudget::kept_for(planned.capture_s + TimeBudget::writing(bytes_of(bake.prepared, planned))) + field;
 }
 
 }  // namespace oriel

@@ -17,8 +17,8 @@ void shrink_maps(double seconds, PlannedReflections& planned);
 // residual maps go by what planning took. `dark` gets a lightmap for it. Error kStopped.
 Status time_reflections(const BakeTask& bake, Pack& dark, PlannedReflections& planned);
 
-// Of a pack's images: lightmaps that are there, and planned maps.
-double bytes_of(const Pack& pack, const PlannedReflections& planned);
+// Of a pack: its mesh, lightmaps and planned maps.
+double bytes_of(const PreparedScene& prepared, const PlannedReflections& planned);
 
 // Maps as large as the time allows; the seconds that all stages behind the lightmap are likely to take. Error kStopped.
 Result<double> fit_reflections(const BakeTask& bake, const TimeBudget& budget, PlannedReflections& planned);

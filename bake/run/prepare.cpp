@@ -16,6 +16,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kEyesForSides = 256;
+constexpr double kTriangles_per_s = 1e5;     // of --time: reading, tracing, laying out and writing take 3 to 6 µs each
 constexpr double kMostForSides = 0.15;       // of --time
 constexpr double kMostForFirstLight = 0.18;  // of what of it is left when the lightmap is laid out
 constexpr double kFirstRays = 800;    // of a texel, for a first estimate of its light: points, direct light, gather
@@ -34,6 +35,7 @@ Status import_scene(const BakeOptions& options, double unit_m, Stopwatch& timed,
                     PreparedScene& prepared) {
   ImportOptions import = options.import;
   import.unit_m = unit_m;
+  import.most_triangles = static_cast<std::uint64_t>(kTriangles_per_s * options.time_s);
   prepared.accel.reset();
   ORIEL_TRY(ImportedScene imported,
             timed("import", [&](auto&) { return import_gltf(options.scene, import, context); }));
@@ -153,6 +155,12 @@ bool choose_directional(const Scene& scene, Directional wanted, std::vector<Warn
                              ? "directional lightmaps: left out by --directional off; normal maps tilt reflections only"
                              : "directional lightmaps: no material has a normal map");
   return false;
+}
+
+double PreparedScene::texels() const {
+  double sum = 0;
+  for (const TexelMapPage& page : texel_map) sum += static_cast<double>(page.texel.size());
+  return sum;
 }
 
 bool PreparedScene::wants_light_field() const {

@@ -27,6 +27,7 @@ struct PreparedScene {
   std::vector<Warning> omissions;
 
   const Scene& scene() const { return imported->scene; }
+  double texels() const;
   // Movers meet it, and the player knows of it where points and spots are that it moves.
   bool wants_light_field() const;
 };

@@ -1,23 +1,14 @@
 // Wall clock of stages, by name.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "bake/jobs/context.h"
+
 namespace oriel {
-
-// The wall clock since it was made.
-class ElapsedTime {
- public:
-  double spent() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }  // seconds
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 struct StageTime {
   std::string stage;

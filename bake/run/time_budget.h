@@ -29,14 +29,14 @@ class TimeBudget : public ElapsedTime {
   static double writing(double bytes) { return bytes / kWritten_per_s; }
   // What to keep for work that was foretold to take so long.
   static double kept_for(double foretold) { return kUnforeseen * foretold; }
-  bool missed() const { return limited() && spent() > whole_ + std::max(kLate_s, kLate * whole_); }
+  bool missed() const { return limited() && spent() > whole_ + kLate_s + kLate * whole_; }
 
  private:
   static constexpr double kAtlas = 0.2, kViews = 0.15, kSets = 0.2, kTiming = 0.1;  // of the time that is left
   static constexpr double kMaps = 0.5, kField = 0.2;  // of what is left when the lightmap begins
   static constexpr double kUnforeseen = 1.3;          // times longer than foretold
   static constexpr double kWritten_per_s = 25e6;      // bytes of maps and lightmaps
-  static constexpr double kLate_s = 2, kLate = 0.1;   // by which the whole may be missed
+  static constexpr double kLate_s = 1, kLate = 0.1;   // by which the whole may be missed, together
   double whole_;
 };
 

@@ -106,26 +106,24 @@ class SetFinder {
   template <class Inputs, class Compute>
   Result<bool> find(const char* name, const Inputs& inputs, const Compute& compute, std::vector<std::uint8_t>& seen,
                     std::uint64_t& lines) {
-    const auto late = [&] { return clock_.spent() > seconds_; };
-    const Interruptible until(context_, late);
     FoundSets found;
-    const Status done = one_unit(
-        context_, name,
-        [&](Archive& key) {
-          inputs(key);
-          key(scene_.group, options_.first_lines, options_.least_lines, options_.most_lines);
-        },
-        [&]() -> Status {
-          ORIEL_TRY(found, compute());
-          return {};
-        },
-        [&](Archive& archive) { archive(found.seen, found.rays); });
-    if (done) {
-      seen = std::move(found.seen), lines += found.rays;
-      return true;
-    }
-    if (done.error().code == ErrorCode::kStopped && !context_.stop && late()) return false;
-    return tl::unexpected(done.error());
+    const auto find_all = [&] {
+      return one_unit(
+          context_, name,
+          [&](Archive& key) {
+            inputs(key);
+            key(scene_.group, options_.first_lines, options_.least_lines, options_.most_lines);
+          },
+          [&]() -> Status {
+            ORIEL_TRY(found, compute());
+            return {};
+          },
+          [&](Archive& archive) { archive(found.seen, found.rays); });
+    };
+    ORIEL_TRY(const bool done, done_in_time(
+                                   context_, [&] { return clock_.spent() > seconds_; }, find_all));
+    if (done) seen = std::move(found.seen), lines += found.rays;
+    return done;
   }
 
   const VisibilityOptions& options_;

@@ -5,6 +5,7 @@
 
 #include "bake/radiosity/estimators/direct_light.h"
 #include "bake/radiosity/estimators/filter.h"
+#include "bake/radiosity/estimators/first_direct.h"
 #include "bake/radiosity/estimators/lamp_light.h"
 #include "bake/radiosity/estimators/light_component.h"
 #include "bake/radiosity/estimators/patches.h"
@@ -19,7 +20,6 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel and light, before any refinement
 constexpr std::uint32_t kOccludedDirect = 16;           // the same in occlusion-heavy texels
 constexpr int kDirectRounds = 2;                        // of four times the samples, where the estimate is uncertain
 constexpr float kUncertain = 0.1f;                      // of the direct light
@@ -28,7 +28,6 @@ constexpr std::uint32_t kFirstOccluded = 32;            // the same in occlusion
 constexpr std::uint32_t kMostDark = 512;                // the same where these find nearly no light,
 constexpr float kDark = 0.002f;                         // a fraction of the mean
 constexpr double kLittleSeen = 0.1;                     // of the squared error asked for
-constexpr double kDirectTime = 0.3;                     // of the time left (RadiosityOptions::left)
 constexpr float kCoarseError = 0.25f;                   // relative, of bounces without gather rays
 constexpr float kLongerPaths = 4;                       // minimum distance (Goal::longer_paths), texel sides
 constexpr double kGatherGain = 0.5, kDirectGain = 0.6;  // of the squared error, by a refinement
@@ -88,6 +87,8 @@ class CachedEstimator : public LightEstimator {
  private:
   // Computes direct light, its bounces on coarse patches, and the first gather.
   Status begin(const Goal& goal) {
+    ORIEL_TRY(const bool all, first_direct_.everywhere(order_));
+    if (!all) frames_ = FrameError(task_.pixels, task_.map, texels_.has_light());
     ORIEL_TRY(graph_, find_neighbours(query_.transport(), texels_, task_.paths));
     error_graph_ = with_chart_neighbours(graph_, texels_);
     importance_ = typical_errors(error_graph_, frames_.importance(), context_);
@@ -161,23 +162,19 @@ class CachedEstimator : public LightEstimator {
     return list;
   }
 
-  // Takes a few samples everywhere, then more where a neighbour's visibility differs: a shadow edge is near.
+  // Takes more samples where a neighbour's visibility differs: a shadow edge is near.
   Status first_direct() {
-    // Directions come from samples, not closed forms; and few randomly chosen light samples hit anything.
-    const bool few_find = options_.directional || direct_light_.samples_lights();
-    const std::uint32_t first = few_find ? 4 * kFirstDirect : kFirstDirect;
-    const double begun = seconds_left();
-    ORIEL_TRY_VOID(direct_light_.estimate(order_, first, task_.quick, direct_));
-    const double took = begun - seconds_left();
     // Few points see a light through a gap: a handful that see none is no evidence.
     std::vector<std::uint32_t> occluded = order_;
     std::erase_if(occluded, [&](std::uint32_t i) { return !is_occlusion_heavy(i); });
-    ORIEL_TRY_VOID(direct_light_.estimate(occluded, std::max(first, kOccludedDirect), task_.quick, direct_));
+    const std::uint32_t first = first_direct_.samples();
+    const auto enough = first_direct_.time_is_over();
+    ORIEL_TRY_VOID(first_direct_.estimate(occluded, std::max(first, kOccludedDirect), enough));
     stored_.first_pass = direct_.value;
     if (reuse_) reuse_->restore_unrefined(same_direct_ = reuse_->same_first_pass(graph_, direct_.value), direct_.value);
     // Bounces start from direct light: an error of more than a few percent would tint them all.
     std::uint32_t per_half = first;
-    const double least = (1 - kDirectTime) * seconds_left();
+    const double least = (1 - FirstDirect::kTime) * seconds_left();
     for (int round = 0; round < kDirectRounds; ++round) {
       per_half *= 4;
       // A fixed number of gather rays brings a fixed number of shadow rays with it.
@@ -189,8 +186,8 @@ class CachedEstimator : public LightEstimator {
       keep_uncertain(direct_, error_graph_, round == 0 ? 0 : kUncertain, context_, list);
       // A round that would not end in time is not begun.
       const double more = 1.0 * per_half / first * (double(list.size()) / double(order_.size()));
-      if (options_.left && took * more > seconds_left() - least) break;
-      ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, task_.quick, direct_));
+      if (options_.left && first_direct_.seconds() * more > seconds_left() - least) break;
+      ORIEL_TRY_VOID(first_direct_.estimate(list, per_half, enough));
     }
     stored_.unrefined_direct = direct_.value;
     return {};
@@ -203,9 +200,8 @@ class CachedEstimator : public LightEstimator {
 
   // Runs a refinement until `enough`; each texel gets it whole or not at all.
   Status refine(const std::function<Status()>& refinement) {
-    const Interruptible until(context_, options_.enough);
-    if (const Status status = refinement(); status || context_.stop) return status;
-    ended_early_ = true;
+    ORIEL_TRY(const bool all, done_in_time(context_, options_.enough, refinement));
+    ended_early_ = ended_early_ || !all;
     return {};
   }
 
@@ -280,7 +276,7 @@ class CachedEstimator : public LightEstimator {
     ProgressEstimate progress(goal, static_cast<double>(first_work_), task_.most_work(texels_.count()));
     for (;;) {
       const LightComponent direct =
-          component({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
+          component({direct_.per_half, std::max(FirstDirect::kSamples, most_gathered()), kDirectGain,
                      static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
       const LightComponent gathered = component({gathered_.samples, most_gathered(), kGatherGain,
                                                  RadiosityTask::kQuickRays * static_cast<double>(gather_rays_),
@@ -356,7 +352,7 @@ class CachedEstimator : public LightEstimator {
   const RadiosityTask& task_;
   const RadiosityOptions& options_;
   Context& context_;
-  const Texels texels_;
+  Texels texels_;
   std::vector<std::uint32_t> order_;
   ExtraSamplePoints sample_points_;
   DirectLight direct_light_;
@@ -365,6 +361,7 @@ class CachedEstimator : public LightEstimator {
   Sweeps sweeps_;                   // bounces on patches
   DirectSums direct_;
   HalfSums gathered_;
+  FirstDirect first_direct_{task_, direct_light_, texels_, direct_};
   LampLight lamps_;
   std::vector<bool> fixed_additional_;  // by texel: its additional light is that of former particles
   Estimate smooth_direct_;              // of the direct light
@@ -392,7 +389,7 @@ class CachedEstimator : public LightEstimator {
 }  // namespace
 
 Result<std::unique_ptr<LightEstimator>> make_cached_estimator(const RadiosityTask& task) {
-  ORIEL_TRY(Texels texels, list_texels(task, task.quick, {task.options.eyes}));
+  ORIEL_TRY(Texels texels, list_texels(task, task.quick, {.eyes = task.options.eyes, .seconds = points_seconds(task)}));
   return std::make_unique<CachedEstimator>(task, std::move(texels));
 }
 

@@ -20,6 +20,24 @@ std::vector<std::uint32_t> connect_blocks(const Texels& t, const TexelGraph& gra
   return parent;
 }
 
+bool bound(LightPatch& patch, const DVec3& most) {
+  constexpr double kAllLight = 1 + 1e-6;  // of the light, with a margin for rounding
+  const DVec3 sum = weight_sum(patch);
+  if (!glm::any(glm::greaterThan(sum, kAllLight * most))) return false;
+  const Vec3 share(glm::min(most / glm::max(sum, DVec3(1e-30)), DVec3(1)));
+  for (PatchLink& link : patch.links) link.weight *= share;
+  return true;
+}
+
+void fill_untraced(std::span<const LightPatch> patches, std::vector<Vec3>& light) {
+  DVec3 sum(0);
+  double area = 0;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    if (patches[p].traced) sum += patches[p].area_m2 * DVec3(light[p]), area += patches[p].area_m2;
+  for (std::size_t p = 0; p < patches.size() && area > 0; ++p)
+    if (!patches[p].traced) light[p] = Vec3(sum / area);
+}
+
 void join_links(std::vector<PatchLink>& links) {
   std::stable_sort(links.begin(), links.end(),
                    [](const PatchLink& a, const PatchLink& b) { return a.patch < b.patch; });

@@ -25,6 +25,7 @@ struct LightPatch {
   Vec3 unreflected{0};         // the part of `source` directly from sky and emitters
   double area_m2 = 0;
   std::uint32_t rays = 0;
+  bool traced = false;                    // its rays are: it has links and sources
   bool follows_near = false;              // GatherRay::follows_near of its rays
   std::uint32_t x = 0, y = 0;             // of its block
   std::uint64_t stream = 0;               // of its random numbers: by block, so that other blocks do not change it
@@ -45,6 +46,12 @@ inline bool same_chart(const Texels& t, std::uint32_t a, std::uint32_t b) {
 // The patches of blocks of side x side texels, as one representative texel by texel. Texels of a block share a patch if
 // neighbours connect them within the block.
 std::vector<std::uint32_t> connect_blocks(const Texels& t, const TexelGraph& graph, std::uint32_t side);
+
+// Scales weights to sum to `most` at most; true if they had to be.
+bool bound(LightPatch& patch, const DVec3& most);
+
+// Gives patches for whose rays there was no time the mean light of the others.
+void fill_untraced(std::span<const LightPatch> patches, std::vector<Vec3>& light);
 
 // Merges the links to each patch into one, which halves the memory that sweeps read.
 void join_links(std::vector<PatchLink>& links);

@@ -1,7 +1,6 @@
 #include "bake/radiosity/estimators/patches.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -15,7 +14,6 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kPatchesATask = 64;  // patches whose rays of one number are traced together
-constexpr double kAllLight = 1 + 1e-6;     // of the light, with a margin for rounding
 constexpr double kRounding = 1e-5;         // of a patch's light: below it there is no growth
 constexpr double kDim = 1e-4;              // of the mean: darker patches need not converge
 constexpr int kPatience = 24;              // sweeps in which light may spread before growth counts
@@ -71,16 +69,21 @@ class Solver {
       std::uint64_t traced = 0;
       for (std::uint32_t k = 0; k < kExtraRays * options_.rays_per_patch; ++k)
         traced += trace_sample(g * kPatchesATask, group_end(g), k, seed);
-      for (std::size_t p = g * kPatchesATask; p < group_end(g); ++p) join_links(patches_[p].links);
+      for (std::size_t p = g * kPatchesATask; p < group_end(g); ++p)
+        join_links(patches_[p].links), patches_[p].traced = true;
       return traced;
     };
     loop.results = [&](std::size_t g, Archive& archive) {
       for (std::size_t p = g * kPatchesATask; p < group_end(g); ++p) {
-        archive(patches_[p].source, patches_[p].unreflected, patches_[p].links);
+        archive(patches_[p].source, patches_[p].unreflected, patches_[p].links, patches_[p].traced);
         if (grouped_) archive(patches_[p].grouped);
       }
     };
-    return parallel_units(stage, loop);
+    const ElapsedTime clock;
+    const auto late = [&] { return clock.spent() > options_.seconds; };
+    return done_in_time(stage.context, std::isfinite(options_.seconds) ? late : std::function<bool()>(),
+                        [&] { return parallel_units(stage, loop); })
+        .map([](bool) {});
   }
 
   // Predicts the seconds of trace() from one group in kOneIn; the links of these are dropped.
@@ -89,15 +92,14 @@ class Solver {
     const std::size_t groups = (patches_.size() + kPatchesATask - 1) / kPatchesATask;
     const std::size_t tried = std::min(groups, groups / kOneIn + static_cast<std::size_t>(thread_count(stage.context)));
     if (tried == 0) return 0;
-    const auto begun = std::chrono::steady_clock::now();
+    const ElapsedTime clock;
     const Status traced = parallel_for(stage, "", tried, [&](std::size_t i) {
       const std::size_t g = i * groups / tried;
       for (std::uint32_t k = 0; k < kSamplePoints; ++k)
         stage.count(trace_sample(g * kPatchesATask, group_end(g), k, stage.context.seed));
     });
     if (!traced) return tl::unexpected(traced.error());
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
-    return took.count() * (double{1.0f * options_.rays_per_patch} / kSamplePoints) * static_cast<double>(groups) /
+    return clock.spent() * (double{1.0f * options_.rays_per_patch} / kSamplePoints) * static_cast<double>(groups) /
            static_cast<double>(tried);
   }
 
@@ -194,15 +196,6 @@ class Solver {
     for (const LightPatch& patch : patches_) sums.push_back(weight_sum(patch));
     return sums;
   }
-  // Scales weights to sum to `most` at most; true if they had to be.
-  static bool bound(LightPatch& patch, const DVec3& most) {
-    const DVec3 sum = weight_sum(patch);
-    if (!glm::any(glm::greaterThan(sum, kAllLight * most))) return false;
-    const Vec3 share(glm::min(most / glm::max(sum, DVec3(1e-30)), DVec3(1)));
-    for (PatchLink& link : patch.links) link.weight *= share;
-    return true;
-  }
-
   // The norm of one sweep's change. `share` is relative to each patch's own light plus `floor`, all patches alike: by
   // area or light, sunlit ground outside, which converges at once, would hide a room that has not.
   struct Change {
@@ -324,6 +317,7 @@ Status Solver::solve(Context& context, Sweeps& result) {
   const int most = query_.transport().options.max_bounces;
   if (!options_.most && result.count >= most && (result.growth >= 1 || result.tail > kEndless))
     warn_of_no_end(context, result);
+  fill_untraced(patches_, solution_);
   return {};
 }
 
@@ -363,6 +357,7 @@ std::vector<Vec3> Solver::solve_group(Context& context, std::size_t group, int s
         next[p] = Vec3(sum);
       }
     });
+  fill_untraced(patches_, now);
   return now;
 }
 

@@ -27,14 +27,14 @@ struct SweepOptions {
 
 // Options by number of texels. error: the relative error requested, of which the bounces get a part.
 inline SweepOptions sweep_options(const RadiosityOptions& options, double error, std::size_t texels) {
-  constexpr double kTailShare = 0.05;           // of the error: for the bounces left out
-  constexpr double kCoarseTarget = 0.04;        // errors from which coarse patches suffice
-  constexpr double kTime = 0.3;                 // of the time left
-  constexpr std::size_t kMaxLinks = 64u << 20;  // 1 GiB
+  constexpr double kTailShare = 0.05;            // of the error: for the bounces left out
+  constexpr double kCoarseTarget = 0.04;         // errors from which coarse patches suffice
+  constexpr double kTime = 0.3, kLeast_s = 0.1;  // of the time left, and some light where there is none
+  constexpr std::size_t kMaxLinks = 64u << 20;   // 1 GiB
   SweepOptions how{.enough = options.enough};
   if (options.bounces > 0) how.most = options.bounces - 1;  // the gather itself is one
   how.tolerance = kTailShare * std::max(error, 1e-3);
-  if (options.left) how.seconds = kTime * options.left();
+  if (options.left) how.seconds = std::max(kTime * options.left(), kLeast_s);
   how.side = error >= kCoarseTarget ? 2 : 1;
   while (texels / (how.side * how.side) * how.rays_per_patch > kMaxLinks) ++how.side;
   return how;

@@ -50,8 +50,9 @@ struct RadiosityOptions {
   // texels without gather rays keep the bounces' light, and verification is left out.
   std::function<double()> left = {};
   bool late() const { return left && left() <= 0; }
-  // True if no time is left at all, not even that of later stages. Seams, which take little, are stitched until then.
-  std::function<bool()> over = {};
+  // Seconds left with those of later stages, but for writing; empty likewise. Seams, which take little, are stitched as
+  // long as there are any.
+  std::function<double()> left_of_all = {};
   // Positions of people's eyes, scene space, m: the error is that of frames seen from there (texels/frame_error.h).
   // Empty: anywhere in the air in front of surfaces. held_out: other positions, for the held-out error; empty: other
   // directions from the same ones.
@@ -77,6 +78,7 @@ struct RadiosityOptions {
 // the two sides, relative to the light there (plus 1 % of the mean).
 struct SeamReport {
   std::size_t pairs = 0;  // stitched pairs of edges
+  bool late = false;      // none is, for want of time
   double mean_step_before = 0, max_step_before = 0;
   double mean_step = 0, max_step = 0;  // after
   double energy_change = 0;            // of the power on all surfaces, relative
@@ -129,6 +131,7 @@ struct RadiosityReport {
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones
   std::size_t buried = 0;
+  std::size_t assumed = 0;    // of the valid ones: their light is that of near ones, for want of time
   Vec3 mean{0};               // lux, over valid texels
   Vec3 max{0};                // lux
   double relative_error = 0;  // rms of standard error over frame pixels (texels/frame_error.h)
@@ -151,6 +154,8 @@ struct Radiosity {
   // Visible fraction of each covered texel, by page and index into TexelMapPage::texel: neither inside other geometry
   // nor behind a wall on the texel (TexelPart). All 1 with Hidden::kBlack, which has it in the light.
   std::vector<std::vector<float>> visible;
+  // Texels, by page, whose light is that of near ones, for want of time.
+  std::vector<std::vector<std::uint32_t>> assumed{};
   // True for cells (LightmapPage::cell) whose light continues across a stitched seam, by page and y * width + x. Empty
   // without stitching.
   std::vector<std::vector<bool>> at_seam{};

@@ -20,12 +20,15 @@ void rescale_all_groups(const std::vector<Vec3>& whole, std::size_t groups, cons
 
 void write_texels(const TexelEstimate& estimate, Radiosity& light) {
   const Texels& texels = estimate.texels;
-  for (std::size_t i = 0; i < texels.count(); ++i) {
-    LightmapPage& page = light.pages[texels.page[i]];
-    const std::size_t texel = std::size_t{texels.y[i]} * page.width + texels.x[i];
-    light.visible[texels.page[i]][texels.index[i]] = texels.visible[i];
-    page.state[texel] = texels.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
-    if (texels.visible[i] == 0) continue;
+  light.assumed.resize(light.pages.size());
+  for (std::size_t k = 0; k < texels.count(); ++k) {
+    LightmapPage& page = light.pages[texels.page[k]];
+    const std::size_t texel = std::size_t{texels.y[k]} * page.width + texels.x[k];
+    const std::uint32_t i = texels.shown_by(static_cast<std::uint32_t>(k));
+    light.visible[texels.page[k]][texels.index[k]] = i == k ? texels.visible[k] : 1;
+    page.state[texel] = i == k && texels.visible[k] > 0 ? TexelState::kValid : TexelState::kBuried;
+    if (i != k) light.assumed[texels.page[k]].push_back(static_cast<std::uint32_t>(texel));
+    if (i == kNoTexel || texels.visible[i] == 0) continue;
     if (!page.direction.empty())
       page.direction[texel] = direction_of(estimate.direct_moments[i] + estimate.gathered_moments[i]);
     page.irradiance[texel] = glm::max(estimate.direct.value[i] + estimate.gathered.value[i], Vec3(0));
@@ -37,11 +40,13 @@ void write_texels(const TexelEstimate& estimate, Radiosity& light) {
 }
 
 void write_grouped(const Texels& texels, const GroupedLight& grouped, std::vector<std::vector<LightmapPage>>& pages) {
-  for (std::size_t i = 0; i < texels.count(); ++i)
-    for (std::size_t g = 0; g < grouped.groups && texels.visible[i] > 0; ++g) {
-      LightmapPage& page = pages[g][texels.page[i]];
-      page.irradiance[std::size_t{texels.y[i]} * page.width + texels.x[i]] = glm::max(grouped.of(i)[g], Vec3(0));
+  for (std::uint32_t k = 0; k < texels.count(); ++k) {
+    const std::uint32_t i = texels.shown_by(k);
+    for (std::size_t g = 0; g < grouped.groups && i != kNoTexel && texels.visible[i] > 0; ++g) {
+      LightmapPage& page = pages[g][texels.page[k]];
+      page.irradiance[std::size_t{texels.y[k]} * page.width + texels.x[k]] = glm::max(grouped.of(i)[g], Vec3(0));
     }
+  }
 }
 
 void rescale_page_groups(const LightmapPage& whole, std::size_t page, std::vector<std::vector<LightmapPage>>& groups) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
 #include "bake/radiosity/texels/extra_sample_points.h"
+#include "bake/radiosity/texels/nearest.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/scene/shade.h"
@@ -21,6 +23,10 @@ constexpr std::uint32_t kColored = 2;  // sample points of a half whose albedo i
 constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kEnoughSamplePoints = 32;
 constexpr std::size_t kSparse = 16;        // pixels of a page for each of its texels: a sparser page has no table
 constexpr std::uint32_t kFewPoints = 16;   // tried where a texel lies under another body
+constexpr float kNotFound = -1;            // the visible fraction of a texel whose points were not looked for
+constexpr std::size_t kTried = 64;         // one run in so many tells how long all take
+constexpr std::size_t kLeastRuns = 8;      // that are finished however late it is: all else shows their light
+constexpr std::uint32_t kMostDivided = 8;  // of TexelUse::point_divisor, for want of time
 constexpr std::uint32_t kNearPoints = 32;  // tried where a texel is whole, but something is close to it
 
 class SamplePointFinder {
@@ -149,6 +155,35 @@ void place_triangles(const Atlas& atlas, Texels& texels) {
   }
 }
 
+// Divides the points of partly hidden texels as the time demands, by what a few runs take.
+Status afford_points(const LightmapScene& scene, const Stage& stage, TexelUse& use, Texels& texels) {
+  if (!std::isfinite(use.seconds)) return {};
+  const SamplePointFinder finder(scene, use, stage.context.seed);
+  const std::size_t runs = (texels.count() + kRun - 1) / kRun;
+  const std::size_t tried = std::min(runs, runs / kTried + static_cast<std::size_t>(thread_count(stage.context)));
+  const ElapsedTime clock;
+  ORIEL_TRY_VOID(parallel_for(stage, "", tried, [&](std::size_t k) {
+    std::uint64_t traced = 0;
+    const std::size_t first = k * runs / tried * kRun;
+    for (std::size_t i = first; i < std::min(texels.count(), first + kRun); ++i) finder.find(texels, i, traced);
+  }));
+  double needed = clock.spent() / static_cast<double>(tried) * static_cast<double>(runs);
+  for (; needed > use.seconds && use.point_divisor < kMostDivided; needed /= 2) use.point_divisor *= 2;
+  use.seconds -= clock.spent();
+  return {};
+}
+
+// Leaves out the texels that no run came to.
+void leave_out_unfinished(const LightmapScene& scene, std::uint64_t seed, Texels& texels) {
+  std::vector<std::uint32_t> unfinished;
+  for (std::uint32_t i = 0; i < texels.count(); ++i) {
+    if (texels.visible[i] != kNotFound) continue;
+    texels.sample_points[i].fill(sample_point_of(texel_candidate(scene, texels, {i, 0, 0}, seed)));
+    unfinished.push_back(i);
+  }
+  leave_out(unfinished, texels);
+}
+
 // Fills pages and places of the texels, and nothing else.
 Texels place_texels(const Atlas& atlas, std::span<const TexelMapPage> texel_map) {
   Texels texels;
@@ -187,6 +222,12 @@ std::uint32_t Texels::at(std::uint32_t page_number, int px, int py) const {
 }
 
 Texels::Place Texels::place(std::uint32_t triangle, const Vec2& b) const {
+  Place found = place_of_own_light(triangle, b);
+  if (found.texel != kNoTexel) found.texel = shown_by(found.texel);
+  return found;
+}
+
+Texels::Place Texels::place_of_own_light(std::uint32_t triangle, const Vec2& b) const {
   const Placement& where = placement[triangle];
   if (where.page < 0) return {};
   const Vec2 p = where.corner + b.x * where.edge1 + b.y * where.edge2;
@@ -257,7 +298,7 @@ double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage&
   return area;
 }
 
-Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const TexelUse& use) {
+Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, TexelUse use) {
   const auto& [t, atlas, texel_map] = scene;
   Texels texels = place_texels(atlas, texel_map);
   texels.eyes.assign(use.eyes.begin(), use.eyes.end());
@@ -265,9 +306,12 @@ Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const
   texels.sample_points.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
       texels.diffuse_share.resize(n), texels.occlusion_heavy.resize(n), texels.is_cut.resize(n);
   place_triangles(atlas, texels);
-  const SamplePointFinder finder(scene, {texels.eyes, use.hit_by_rays, use.point_divisor}, stage.context.seed);
+  ORIEL_TRY_VOID(afford_points(scene, stage, use, texels));
+  texels.visible.assign(n, kNotFound);
+  const SamplePointFinder finder(scene, use, stage.context.seed);
   using Hidden = std::pair<std::uint32_t, SamplePointFinder::Found>;
   std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
+  std::atomic<std::size_t> finished{0};
   UnitLoop loop{.stage = "texel points", .count = hidden.size(), .rays = kRun * kRaysATexel};
   loop.inputs = [&](std::size_t run, Archive& key) { key(run, texels.eyes, use.hit_by_rays, use.point_divisor); };
   loop.compute = [&](std::size_t run) {
@@ -279,6 +323,7 @@ Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const
       if (texels.visible[i] != 1 || !found.points[0].empty())
         hidden[run].emplace_back(static_cast<std::uint32_t>(i), std::move(found));
     }
+    ++finished;
     return traced;
   };
   loop.results = [&](std::size_t run, Archive& archive) {
@@ -294,7 +339,11 @@ Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const
       archive.require(i < n && i / kRun == run);
     }
   };
-  ORIEL_TRY_VOID(parallel_units(stage, loop));
+  const ElapsedTime clock;
+  const auto late = [&] { return finished >= kLeastRuns && clock.spent() > use.seconds; };
+  ORIEL_TRY_VOID(done_in_time(stage.context, std::isfinite(use.seconds) ? late : std::function<bool()>(),
+                              [&] { return parallel_units(stage, loop); }));
+  leave_out_unfinished(scene, stage.context.seed, texels);
   for (auto& run : hidden)
     for (auto& [i, found] : run) {
       if (!found.part.whole()) {

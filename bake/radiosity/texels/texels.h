@@ -50,6 +50,11 @@ struct Texels {
   std::vector<Vec3> albedo;  // diffuse, mean over the texel
   std::vector<DiffuseShare> diffuse_share;
 
+  // The texel itself, or where there was no time for its light the near one that stands in (nearest.h); kNoTexel: there
+  // is none. Empty: all have their own.
+  std::vector<std::uint32_t> nearest;
+  std::uint32_t shown_by(std::uint32_t i) const { return nearest.empty() ? i : nearest[i]; }
+
   std::vector<Vec3> eyes;  // view positions that decide visibility; none: all is visible (trace/view_samples.h)
 
   std::size_t count() const { return page.size(); }
@@ -116,6 +121,7 @@ struct Texels {
   std::vector<Placement> placement;
 
  private:
+  Place place_of_own_light(std::uint32_t triangle, const Vec2& barycentric) const;
   // The texel a step away in the same chart, or else the texel itself.
   std::uint32_t chart_neighbour(std::uint32_t texel, const IVec2& step) const;
   std::uint32_t across_wall(std::uint32_t texel, std::uint32_t triangle, const Vec2& barycentric, const Vec2& p) const;
@@ -126,9 +132,12 @@ struct TexelUse {
   std::span<const Vec3> eyes{};     // view positions: a gap into which none of them sees is hidden. None: no gap is
   bool hit_by_rays = true;          // false: albedo and diffuse_share are not filled
   std::uint32_t point_divisor = 1;  // divides the number of points tried in partly hidden texels: small ones need few
+  // That it may take. Where it would take longer, fewer points are tried; texels that are not done by then are left out
+  // (nearest.h).
+  double seconds = std::numeric_limits<double>::infinity();
 };
 // Lists the texels of all pages in the order of the texel map, with their sample points and visibility. Error kStopped.
-Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const TexelUse& use = {});
+Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, TexelUse use = {});
 
 // The area of the surface under texel i of the map, m².
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);

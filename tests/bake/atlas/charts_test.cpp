@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bake/atlas/congruent.h"
 #include "bake/atlas/flatten.h"
 #include "bake/atlas/lscm.h"
 #include "bake/atlas/surface_mesh.h"
@@ -237,6 +238,31 @@ TEST(AtlasQuality, FillAndStretchOfASphereOnOnePage) {
   EXPECT_GT(built.atlas.covered_share, 0.7);
   EXPECT_LT(built.atlas.report.l2_stretch, 1.02);
   EXPECT_LE(built.atlas.chart_count, 32u);
+}
+
+// Copies of a mesh share their charts, wherever they stand; what is scaled or folded otherwise has its own.
+TEST(AtlasInstances, HaveTheChartsOfTheFirst) {
+  Scene scene = shapes::empty_scene();
+  for (const float radius : {1.0f, 1.0f, 2.0f, 1.0f}) shapes::add_icosphere(scene, "sphere", radius, 3);
+  for (Surface& surface : scene.surfaces) surface.mesh_name = "sphere";
+  for (std::uint32_t s = 1; s < scene.surfaces.size(); ++s) {
+    const Surface& surface = scene.surfaces[s];
+    for (std::uint32_t v = surface.first_vertex; v < surface.first_vertex + surface.vertex_count; ++v) {
+      Vec3& p = scene.positions[v];
+      Vec3& n = scene.normals[v];
+      p = Vec3(p.z, 0.8f * p.y - 0.6f * p.x, -0.6f * p.y - 0.8f * p.x);
+      n = Vec3(n.z, 0.8f * n.y - 0.6f * n.x, -0.6f * n.y - 0.8f * n.x);
+      if (s == 3) p.y = std::abs(p.y);
+      p += Vec3(5.0f * static_cast<float>(s), 1, 0);
+    }
+  }
+  scene.face_normals.clear();
+  keep_face_normals(scene);
+  const std::vector<std::uint32_t> all{0, 1, 2, 3};
+  EXPECT_EQ(first_congruent(scene, all, nullptr), (std::vector<std::uint32_t>{0, 0, 2, 3}));
+  scene.surfaces[1].material = scene.surfaces[0].material;
+  const Built built = build(scene);
+  expect_sound(scene, built);
 }
 
 TEST(AtlasLimits, TimeLimitStillGivesASoundAtlas) {

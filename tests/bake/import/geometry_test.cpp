@@ -273,6 +273,59 @@ TEST(Nodes, InstancesArePlaced) {
   EXPECT_FALSE(import(g).ok());
 }
 
+// A dish of 20 x 20 quads.
+json dish(Gltf& g) {
+  std::vector<float> positions;
+  std::vector<std::uint16_t> indices;
+  for (int y = 0; y <= 20; ++y)
+    for (int x = 0; x <= 20; ++x) {
+      const float u = 0.1f * static_cast<float>(x) - 1, v = 0.1f * static_cast<float>(y) - 1;
+      positions.insert(positions.end(), {u, v, u * u + v * v});
+      if (x == 20 || y == 20) continue;
+      const auto at = static_cast<std::uint16_t>(21 * y + x);
+      for (const int off : {0, 1, 22, 0, 22, 21}) indices.push_back(static_cast<std::uint16_t>(at + off));
+    }
+  return {{"attributes", {{"POSITION", g.floats("VEC3", positions)}}}, {"indices", g.indices(indices)}};
+}
+
+// Where all would take longer than there is time, what stands in many places is coarser, and stands where it did.
+TEST(TooManyTriangles, InstancesGetFewer) {
+  Gltf g = triangle();
+  const json mesh = dish(g);
+  g.add(mesh)["translation"] = {0, 0, 0};
+  const std::size_t shared = g.doc["meshes"].size() - 1;
+  for (int i = 1; i < 50; ++i) {
+    g.doc["nodes"].push_back({{"mesh", shared}, {"translation", {3 * i, 0, 0}}});
+    g.doc["scenes"][0]["nodes"].push_back(g.doc["nodes"].size() - 1);
+  }
+  const Imported whole = import(g);
+  ASSERT_TRUE(whole.ok()) << whole.error();
+  EXPECT_EQ(whole.scene().triangles.size(), 1u + 50 * 800);
+  ImportOptions options;
+  options.most_triangles = 10'000;
+  const Imported coarse = import(g, options);
+  ASSERT_TRUE(coarse.ok()) << coarse.error();
+  EXPECT_LE(coarse.scene().triangles.size(), 10'000u);
+  EXPECT_GE(coarse.scene().triangles.size(), 2'000u);
+  EXPECT_EQ(coarse.scene().surfaces.size(), 51u);
+  EXPECT_TRUE(coarse.warned("take too long for --time"));
+  EXPECT_LT(glm::length(coarse.scene().upper - whole.scene().upper), 0.3f);
+  EXPECT_EQ(broken_promise(coarse.scene()), "");
+  options.most_triangles = 1'000'000;
+  EXPECT_EQ(import(g, options).scene().triangles.size(), whole.scene().triangles.size());
+}
+
+TEST(TooManyTriangles, OfOneMeshAreRefused) {
+  Gltf g;
+  g.add(dish(g));
+  ImportOptions options;
+  options.most_triangles = 200;
+  const Imported r = import(g, options);
+  ASSERT_FALSE(r.ok());
+  EXPECT_EQ(r.result.error().code, ErrorCode::kInvalid);
+  EXPECT_NE(r.error().find("give more time"), std::string::npos) << r.error();
+}
+
 TEST(Repair, SeesWhatIsOddAndNothingElse) {
   const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
   const std::vector<UVec3> tetrahedron{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};

@@ -131,7 +131,7 @@ TEST(SeamsInTime, AreStitchedUntilItIsOver) {
   for (const bool over : {false, true}) {
     RadiosityOptions options = options_of(Estimator::kCached, 16, true);
     options.left = [] { return -1.0; };
-    options.over = [over] { return over; };
+    options.left_of_all = [over] { return over ? 0.0 : 1.0; };
     EXPECT_EQ(bake(scene, 0.1f, options).radiosity.report.seams.pairs > 0, !over);
   }
 }

@@ -48,6 +48,15 @@ TEST(Stitch, TexelsMoveByTheirSquaredErrors) {
   EXPECT_EQ(two.pages[0].irradiance[1], Vec3(1)) << "the seam does not read the second column";
 }
 
+TEST(Stitch, ChangesNothingWithoutTime) {
+  TwoPages two(Vec3(1), Vec3(1.2f), 0.05f, 0.1f);
+  const SeamReport report = stitch(two.seams, two.map, 1, two.pages, [] { return 0.0; });
+  EXPECT_TRUE(report.late);
+  EXPECT_EQ(report.pairs, 0u);
+  EXPECT_EQ(two.pages[0].irradiance[0], Vec3(1));
+  EXPECT_FALSE(stitch(two.seams, two.map, 1, two.pages, [] { return 60.0; }).late);
+}
+
 // Such as the inside of a crack that shares an edge with a lit wall: what is certainly dark is not torn towards the
 // light.
 TEST(Stitch, ADarkTexelBesideABrightOneStaysDark) {
