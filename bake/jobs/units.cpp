@@ -19,10 +19,6 @@ bool keeps(const Context& context) {
   return context.units && context.inputs != Hash128();
 }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 // The i-th of `count` items in an order that spreads over all of them, so that what is done of a loop that ends early
 // is everywhere: multiples of the golden section (Weyl).
 class Scattered {

@@ -14,7 +14,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kFewPoints = 1 << 14;  // lower limit on points of a pass
-constexpr std::size_t kPointsATexel = 8;
+constexpr std::size_t kPointsATexel = 4;
 constexpr double kUsualError = 0.02;  // without a requested error
 constexpr double kNegligible = 0.4;   // of the error allowed: points of cells below it are not stored
 

@@ -12,14 +12,12 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kFirstOfPoint = 2, kMostOfPoint = 32;  // samples a half, point and light; by fours
+constexpr std::uint32_t kFirstOfPoint = 2, kMostOfPoint = 8;  // samples a half, point and light; by fours
 constexpr float kUncertainPoint = 0.02f;                 // relative error of direct light: points above it get more
 constexpr double kUsualPointError = 0.02;                // requested error, at which a point and half gets
 constexpr std::uint32_t kGather = 16, kMostGather = 64;  // gather rays; at a smaller error more, at most
 constexpr float kNoisy = 0.05f;            // relative error of a point's gathered light: above it there are
 constexpr std::uint32_t kNoisyGather = 4;  // times as many rays
-
-constexpr std::uint32_t kPointDivisor = 4;  // of the sample points that texels try: points are small
 
 // While it lives, random numbers and units of work are separate from those of texels.
 class OwnNumbers {
@@ -165,7 +163,7 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& tex
   PointLight result;
   ORIEL_TRY(result.texels,
             list_texels(scene, task.quick,
-                        {.eyes = texel_light.texels.eyes, .hit_by_rays = false, .point_divisor = kPointDivisor}));
+                        {.eyes = texel_light.texels.eyes, .coarse = &texel_light.texels, .side = points.side}));
   hide_separated(texel_light, points, result.texels);
   const Texels& texels = result.texels;
   const std::size_t n = texels.count();

@@ -21,21 +21,23 @@ constexpr double kRaysATexel = 32;     // about
 constexpr std::uint32_t kColored = 2;  // sample points of a half whose albedo is averaged
 // Points of a partly buried texel: tried at least, tried at most, and unburied ones that suffice.
 constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kEnoughSamplePoints = 32;
-constexpr std::size_t kSparse = 16;        // pixels of a page for each of its texels: a sparser page has no table
-constexpr std::uint32_t kFewPoints = 16;   // tried where a texel lies under another body
-constexpr float kNotFound = -1;            // the visible fraction of a texel whose points were not looked for
-constexpr std::size_t kTried = 64;         // one run in so many tells how long all take
-constexpr std::size_t kLeastRuns = 8;      // that are finished however late it is: all else shows their light
-constexpr std::uint32_t kMostDivided = 8;  // of TexelUse::point_divisor, for want of time
-constexpr std::uint32_t kNearPoints = 32;  // tried where a texel is whole, but something is close to it
+constexpr std::size_t kSparse = 16;         // pixels of a page for each of its texels: a sparser page has no table
+constexpr std::uint32_t kPointDivisor = 4;  // of these, for points of finer cells: they are small
+constexpr std::uint32_t kFewPoints = 16;    // tried where a texel lies under another body
+constexpr float kNotFound = -1;             // the visible fraction of a texel whose points were not looked for
+constexpr std::size_t kTried = 64;          // one run in so many tells how long all take
+constexpr std::size_t kLeastRuns = 8;       // that are finished however late it is: all else shows their light
+constexpr std::uint32_t kMostDivided = 8;   // of TexelUse::point_divisor, for want of time
+constexpr std::uint32_t kNearPoints = 32;   // tried where a texel is whole, but something is close to it
 
 class SamplePointFinder {
  public:
   SamplePointFinder(const LightmapScene& scene, const TexelUse& use, std::uint64_t seed)
       : scene_(scene),
         t_(scene.transport),
-        hit_by_rays_(use.hit_by_rays),
-        point_divisor_(use.point_divisor),
+        coarse_(use.coarse),
+        divisor_(use.point_divisor * (use.coarse ? kPointDivisor : 1)),
+        side_(static_cast<float>(use.side)),
         views_(scene.transport, use.eyes),
         seed_(seed) {}
 
@@ -45,17 +47,33 @@ class SamplePointFinder {
   };
 
   Found find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
+    return coarse_ ? find_of_point(texels, i, rays) : find_of_texel(texels, i, rays);
+  }
+
+ private:
+  // The texels around a point know whether a wall divides them, and whether anything is close.
+  Found find_of_point(Texels& texels, std::size_t i, std::uint64_t& rays) const {
+    Found found{TexelPart(t_.accel), {}};
+    texels.visible[i] = 1;
+    if (coarse_->open_around(texels.page[i], Vec2(texels.x[i], texels.y[i]) / side_ - 1.0f))
+      for (int k = 0; k < kSamplePoints; ++k)
+        texels.sample_points[i][k] = sample_point_of(stored_candidate(texels, i, k));
+    else
+      find_unburied(texels, i, kNearPoints, found, rays);
+    return found;
+  }
+
+  Found find_of_texel(Texels& texels, std::size_t i, std::uint64_t& rays) const {
     const std::uint64_t stream = stream_of(texels, i);
     std::vector<ShadePoint> shade;
     int buried = 0;
     bool near_occluder = false;
     for (int k = 0; k < kSamplePoints; ++k) {
-      const auto turn = static_cast<std::uint32_t>(k % kSamplePointsPerHalf);
-      const SurfacePoint surface = candidate(texels, i, k / kSamplePointsPerHalf, turn);
+      const SurfacePoint surface = stored_candidate(texels, i, k);
       texels.sample_points[i][k] = sample_point_of(surface);
       buried += is_buried(t_, surface, {seed_, stream, static_cast<std::uint32_t>(k)}, rays);
       near_occluder = near_occluder || hits_near_occluder(texels, i, k, stream, rays);
-      if (hit_by_rays_ && turn < kColored) shade.push_back(shade_at(surface));
+      if (static_cast<std::uint32_t>(k % kSamplePointsPerHalf) < kColored) shade.push_back(shade_at(surface));
     }
     set_means(shade, texels, i);
     texels.visible[i] = 1;
@@ -74,7 +92,7 @@ class SamplePointFinder {
                      std::uint64_t& rays) const {
     const std::uint64_t stream = stream_of(texels, i);
     std::vector<ShadePoint> shade;
-    const std::uint32_t most = kMostPoints / point_divisor_, enough_points = kEnoughSamplePoints / point_divisor_;
+    const std::uint32_t most = kMostPoints / divisor_, enough_points = kEnoughSamplePoints / divisor_;
     std::uint32_t tried = 0, total = 0;
     bool in_sight = false;
     ViewSamples::Nearest eyes;
@@ -83,7 +101,7 @@ class SamplePointFinder {
       const bool share_is_enough = total * 16 >= tried && !found.part.covered();
       return (share_is_enough || in_sight) && !found.points[0].empty() && !found.points[1].empty();
     };
-    for (; tried < point_count / point_divisor_ || (tried < most && total < enough_points && enough()); ++tried) {
+    for (; tried < point_count / divisor_ || (tried < most && total < enough_points && enough()); ++tried) {
       const std::uint32_t k = tried;
       const int half = static_cast<int>(k % kHalves);
       const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
@@ -95,7 +113,7 @@ class SamplePointFinder {
       const bool seen = needs_view && views_.any() && sees(surface, eyes, rays);
       if (found.part.covered() && !seen) continue;
       in_sight = in_sight || seen;
-      if (hit_by_rays_) shade.push_back(shade_at(surface));
+      if (!coarse_) shade.push_back(shade_at(surface));
       found.points[half].push_back(sample_point_of(surface));
       ++total;
     }
@@ -108,9 +126,11 @@ class SamplePointFinder {
     }
   }
 
- private:
   static std::uint64_t stream_of(const Texels& texels, std::size_t i) {
     return std::uint64_t{texels.page[i]} << 32 | texels.index[i];
+  }
+  SurfacePoint stored_candidate(const Texels& texels, std::size_t i, int k) const {
+    return candidate(texels, i, k / kSamplePointsPerHalf, static_cast<std::uint32_t>(k % kSamplePointsPerHalf));
   }
   SurfacePoint candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
     return texel_candidate(scene_, texels, {i, half, k}, seed_);
@@ -139,8 +159,9 @@ class SamplePointFinder {
 
   LightmapScene scene_;
   const Transport& t_;
-  bool hit_by_rays_;
-  std::uint32_t point_divisor_;
+  const Texels* coarse_;  // of points of finer cells
+  std::uint32_t divisor_;
+  float side_;
   ViewSamples views_;
   std::uint64_t seed_;
 };
@@ -255,6 +276,16 @@ float Texels::texels2_per_m2(const Scene& scene, std::uint32_t triangle) const {
   return static_cast<float>(0.5 * std::abs(a.x * b.y - a.y * b.x) / area);
 }
 
+bool Texels::open_around(std::uint32_t page_number, const Vec2& at_place) const {
+  const IVec2 first(glm::floor(at_place)), last(glm::ceil(at_place));
+  for (int py = first.y; py <= last.y; ++py)
+    for (int px = first.x; px <= last.x; ++px) {
+      const std::uint32_t texel = at(page_number, px, py);
+      if (texel == kNoTexel || visible[texel] < 1 || occlusion_heavy[texel] || is_cut[texel]) return false;
+    }
+  return true;
+}
+
 bool Texels::parts(std::uint32_t triangle, const Vec2& b) const {
   const Placement& place = placement[triangle];
   if (place.page < 0) return false;
@@ -313,7 +344,9 @@ Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, Texel
   std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
   std::atomic<std::size_t> finished{0};
   UnitLoop loop{.stage = "texel points", .count = hidden.size(), .rays = kRun * kRaysATexel};
-  loop.inputs = [&](std::size_t run, Archive& key) { key(run, texels.eyes, use.hit_by_rays, use.point_divisor); };
+  loop.inputs = [&](std::size_t run, Archive& key) {
+    key(run, texels.eyes, use.coarse != nullptr, use.side, use.point_divisor);
+  };
   loop.compute = [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {

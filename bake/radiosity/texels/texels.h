@@ -102,6 +102,9 @@ struct Texels {
   std::uint32_t under_lamp(std::uint32_t texel) const { return chart_neighbour(texel, cut.at(texel).towards_lamp()); }
   // Texel density of a triangle, texels per m²; 0 where it has no area or no page.
   float texels2_per_m2(const Scene& scene, std::uint32_t triangle) const;
+  // True if the texels around a place of a page, whole numbers at their centres, are there, whole, and near no
+  // occluder.
+  bool open_around(std::uint32_t page_number, const Vec2& at_place) const;
   // True if a wall separates that point from the texel under it.
   bool parts(std::uint32_t triangle, const Vec2& barycentric) const;
   // The texel at a pixel of a page; kNoTexel without one.
@@ -129,9 +132,12 @@ struct Texels {
 
 // Options of list_texels().
 struct TexelUse {
-  std::span<const Vec3> eyes{};     // view positions: a gap into which none of them sees is hidden. None: no gap is
-  bool hit_by_rays = true;          // false: albedo and diffuse_share are not filled
-  std::uint32_t point_divisor = 1;  // divides the number of points tried in partly hidden texels: small ones need few
+  std::span<const Vec3> eyes{};  // view positions: a gap into which none of them sees is hidden. None: no gap is
+  // For the points of finer cells, `side` of which are a texel's side long: the texels themselves. No ray hits points,
+  // so albedo and diffuse_share are not filled. A point between texels that are open has no test of its own.
+  const Texels* coarse = nullptr;
+  std::uint32_t side = 1;
+  std::uint32_t point_divisor = 1;  // divides the number of points tried in partly hidden texels
   // That it may take. Where it would take longer, fewer points are tried; texels that are not done by then are left out
   // (nearest.h).
   double seconds = std::numeric_limits<double>::infinity();
