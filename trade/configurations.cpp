@@ -127,7 +127,6 @@ class Planner {
     const Settings grouped{{"--light-groups", "each"}}, there{{"--move", move_}};
     add("moved lamp", "baked anew", there, {});
     add("moved lamp", "live", grouped, there);
-    add("moved lamp", "live, by lights", grouped, {{"--move", move_}, {"--live-indirect", "lights"}});
     add("moved lamp", "switched off", grouped, {{"--light", move_.substr(0, move_.find('=')) + "=off"}});
     add("moved lamp", "not followed", {}, {});
     for (std::size_t i = first; i < configurations_.size(); ++i) configurations_[i].moved = true;

@@ -1,5 +1,4 @@
-// Lights that stand for a lamp: points on it give its direct light. Where wanted others stand for what it lights, where
-// random walks from it meet surfaces: instant radiosity (Keller 1997); else LiveBounces brings what bounces.
+// Lights that stand for a lamp: points on it give its direct light. LiveBounces brings what bounces.
 #pragma once
 
 #include <algorithm>
@@ -30,22 +29,14 @@ struct LiveLight {
 
 // Irradiance at a point of that unit normal as if nothing were between, lux. The surface that a light stands for counts
 // as a disk that faces the point (Wallace, Elmquist and Haines 1989, "A Ray Tracing Algorithm for Progressive
-// Radiosity"): so it is finite wherever the point is. missing: what the same light without extent would give more,
-// lux, or infinite.
-Vec3 unshadowed(const LiveLight& light, const Vec3& point, const Vec3& normal, Vec3* missing = nullptr);
+// Radiosity"): so it is finite wherever the point is.
+Vec3 unshadowed(const LiveLight& light, const Vec3& point, const Vec3& normal);
 
 // Unit, about that unit normal, in proportion to the cosine. u: in [0, 1)².
 inline Vec3 cosine_direction(const Vec2& u, const Vec3& normal) {
   const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
   return frame_from_normal(normal) * Vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1 - u.x)));
 }
-
-struct LiveLights {
-  std::vector<LiveLight> lights;  // the direct ones first
-  std::size_t direct = 0;         // of them
-  Vec3 flux{0};                   // of the lamp, lm
-  Vec3 left{0};                   // of it, what the surfaces where walks end would reflect of it once more, lm
-};
 
 // A lamp as the mesh has it, in pack space.
 struct LiveLamp {
@@ -69,8 +60,9 @@ class LampScene {
   // Copies positions: the mesh's may change.
   LampScene(const LiveSurfaces& surfaces, LiveLamp lamp);
 
-  // By the same random numbers for every pose: what differs between two poses is the poses'.
-  LiveLights lights(const LiveOptions& options, const MoverPose& pose) const;
+  // By the same random numbers for every pose: what differs between two poses is the poses'. So many of them, but at
+  // least one for each point light and one for all surfaces together; none where 0 are wanted.
+  std::vector<LiveLight> lights(std::size_t count, const MoverPose& pose) const;
   // What stands still and is lit, from its front, is met there: a page of the lightmap and its coordinates on it.
   struct LitPlace {
     std::uint32_t page = 0;
@@ -116,18 +108,10 @@ class LampScene {
     float area = 0;
     bool two_sided = false;
   };
-  struct Start;
-  struct Met;
-  Start start(std::uint32_t walk, const Mat4& pack_from_lamp) const;
-  Met meet(const Vec3& from, const Vec3& direction, const Mat4& lamp_from_pack) const;
-  void add_direct(std::size_t count, const Mat4& pack_from_lamp, LiveLights& out) const;
   // A point of the piece that stands for that area of it.
-  static void add_point(const Piece& piece, const Vec2& at, float area, const Mat4& pack_from_lamp, LiveLights& out);
-  std::vector<std::uint32_t> walks_by_bounce(std::size_t count, std::uint32_t bounces) const;
-  void add_walks(std::size_t count, std::uint32_t bounces, const MoverPose& pose, LiveLights& out) const;
+  static LiveLight point_on(const Piece& piece, const Vec2& at, float area, const Mat4& pack_from_lamp);
   const MeshPart& part_of(const TriangleHit& hit) const;
   Vec3 albedo(std::uint32_t material, const std::uint32_t* corners, const Vec2& shares) const;
-  Vec3 albedo(const TriangleHit& hit) const;
   // Towards whoever comes along there; 0: its back, which reflects nothing.
   Vec3 facing_normal(const TriangleHit& hit, const Vec3& direction) const;
 
@@ -139,8 +123,6 @@ class LampScene {
   MeshRays still_, lamp_rays_;
   std::vector<Piece> pieces_;
   std::vector<float> chosen_;  // sums of luminous flux of pieces, then of points: who is chosen
-  Vec3 flux_{0};
-  float area_ = 0, mean_albedo_ = 0;  // of what stands still
   float offset_m_ = 0;
 };
 

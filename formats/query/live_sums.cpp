@@ -21,8 +21,8 @@ struct Seen {
 
 }  // namespace
 
-PosedLights pose_lights(const LampScene& scene, const LiveOptions& options, const MoverPose& pose) {
-  return {scene.lights(options, pose), Mat4(glm::inverse(pack_from_object(pose)))};
+PosedLights pose_lights(const LampScene& scene, std::size_t count, const MoverPose& pose) {
+  return {scene.lights(count, pose), Mat4(glm::inverse(pack_from_object(pose)))};
 }
 
 LiveSum& LiveSum::operator+=(const LiveSum& other) {
@@ -36,17 +36,15 @@ std::optional<float> LiveSum::kept() const {
 }
 
 LiveSums::LiveSums(const LampScene& scene, const LightPair& lights)
-    : scene_(scene), lights_(lights), now_(lights.now.of.lights.size()), baked_(now_.size()) {
-  ORIEL_CHECK(now_.size() == lights.baked.of.lights.size() && lights.now.of.direct == lights.baked.of.direct);
+    : scene_(scene), lights_(lights), now_(lights.now.lights.size()), baked_(now_.size()) {
+  ORIEL_CHECK(now_.size() == lights.baked.lights.size());
 }
 
-LiveSum LiveSums::at(LivePart part, const Vec3& point, const Vec3& normal) {
-  const bool direct = part == LivePart::kDirect;
-  const std::size_t split = lights_.now.of.direct, first = direct ? 0 : split, end = direct ? split : now_.size();
+LiveSum LiveSums::at(const Vec3& point, const Vec3& normal) {
   const Vec3 from = point + scene_.offset_m() * normal;
-  const auto light_of = [&](const PosedLights& posed, std::size_t i, Seen& seen, Vec3* missing) {
-    const LiveLight& light = posed.of.lights[i];
-    const Vec3 given = unshadowed(light, point, normal, missing);
+  const auto light_of = [&](const PosedLights& posed, std::size_t i, Seen& seen) {
+    const LiveLight& light = posed.lights[i];
+    const Vec3 given = unshadowed(light, point, normal);
     if (given == Vec3(0)) return given;
     ++seen.all;
     const float side = glm::dot(light.normal, from - light.position) < 0 ? -1.0f : 1.0f;
@@ -55,27 +53,23 @@ LiveSum LiveSums::at(LivePart part, const Vec3& point, const Vec3& normal) {
       ++seen.seen;
       return given;
     }
-    if (missing != nullptr) *missing = Vec3(0);
     return Vec3(0);
   };
   LiveSum out;
   Seen seen_now, seen_baked;
-  for (std::size_t i = first; i < end; ++i) {
-    Vec3 missing(0);
-    const Vec3 a = light_of(lights_.now, i, seen_now, direct ? nullptr : &missing),
-               b = light_of(lights_.baked, i, seen_baked, nullptr);
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const Vec3 a = light_of(lights_.now, i, seen_now), b = light_of(lights_.baked, i, seen_baked);
     out.now += a, out.baked += b;
-    if (is_finite(missing)) out.missing += missing;
     const double x = luminance(a), y = luminance(b);
     out.products += x * y, out.squares += y * y;
   }
-  out.products *= static_cast<double>(end - first), out.squares *= static_cast<double>(end - first);
+  out.products *= static_cast<double>(now_.size()), out.squares *= static_cast<double>(now_.size());
   out.sees_now = seen_now.sight(), out.sees_baked = seen_baked.sight();
   return out;
 }
 
 void add_share(LiveSum& to, float share, const LiveSum& sum) {
-  to.now += share * sum.now, to.baked += share * sum.baked, to.missing += share * sum.missing;
+  to.now += share * sum.now, to.baked += share * sum.baked;
   to.products += double{share} * sum.products, to.squares += double{share} * sum.squares;
 }
 

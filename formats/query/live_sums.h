@@ -9,16 +9,15 @@ namespace oriel {
 
 // A lamp's lights at one pose.
 struct PosedLights {
-  LiveLights of;
+  std::vector<LiveLight> lights;
   Mat4 lamp_from_pack{1};
 };
-PosedLights pose_lights(const LampScene& scene, const LiveOptions& options, const MoverPose& pose);
-// now, baked: by the same options, so that lights of the same index belong together.
+PosedLights pose_lights(const LampScene& scene, std::size_t count, const MoverPose& pose);
+// now, baked: as many, so that lights of the same index belong together.
 struct LightPair {
   const PosedLights &now, &baked;
 };
 
-enum class LivePart { kDirect, kIndirect };
 // How much is seen of the lights that face a point.
 enum class SeenLights : std::uint8_t { kNone, kSome, kAll, kFacesNone };
 
@@ -29,8 +28,6 @@ struct LiveSum {
   // now times baked, baked squared.
   double products = 0, squares = 0;
   SeenLights sees_now = SeenLights::kFacesNone, sees_baked = SeenLights::kFacesNone;
-  // Of `now`, what its indirect lights would give more without extent; without what is infinite.
-  Vec3 missing{0};
 
   // Of both parts; what is seen is the left one's.
   LiveSum& operator+=(const LiveSum& other);
@@ -47,7 +44,7 @@ class LiveSums {
   // All outlive it.
   LiveSums(const LampScene& scene, const LightPair& lights);
   // normal: unit. The same whatever was asked before.
-  LiveSum at(LivePart part, const Vec3& point, const Vec3& normal);
+  LiveSum at(const Vec3& point, const Vec3& normal);
 
  private:
   const LampScene& scene_;

@@ -26,12 +26,8 @@ std::int64_t first_that_lists(std::span<const Reflector> reflectors, std::uint32
 }  // namespace
 
 std::string text_of(const LiveReport& report) {
-  std::string text =
-      fmt::format("lamp \"{}\": {} live lights, {} on it, at {} points, {} of them between others, in {:.2f} s; ",
-                  report.lamp, report.lights, report.direct, report.points, report.between, report.seconds);
-  if (report.lights > report.direct)
-    text += fmt::format("{:.2f} % of its light is cut near lights, {:.1f} % of its flux was not followed; ",
-                        100 * report.missing, 100 * report.left);
+  std::string text = fmt::format("lamp \"{}\": {} live lights at {} points, {} of them between others, in {:.2f} s; ",
+                                 report.lamp, report.lights, report.points, report.between, report.seconds);
   if (report.rays > 0)
     text +=
         fmt::format("bounced by {} rays a texel, one bounce more would add {:.1f} %; ", report.rays, 100 * report.last);
@@ -90,10 +86,10 @@ void LiveLamps::Job::run(const ImageSource& images, std::span<const Reflector> r
     direct.push_back(pages.back().direct());
   }
   std::optional<BouncedLight> bounced;
-  if (!stop && settings.lights.indirect == LiveIndirect::kTexels && settings.lights.bounce_count() > 0) {
+  if (!stop && settings.lights.bounces > 0) {
     LiveBounces& bounces = *lamp->bounces;
     bounces.trace(coarse ? 1 : bounces.wanted_rays(), &stop);
-    bounced = bounces.bounced(direct, settings.lights.bounce_count(), &stop);
+    bounced = bounces.bounced(direct, settings.lights.bounces, &stop);
     report.rays = bounces.rays(), report.last = static_cast<float>(bounced->left);
   }
   LiveTotals totals;
@@ -106,13 +102,11 @@ void LiveLamps::Job::run(const ImageSource& images, std::span<const Reflector> r
     added.push_back(pages[p].change(std::move(direct[p]), *own, bounced ? &*bounced : nullptr, totals));
   }
   if (!coarse) views = emitter_views({reflectors, alphas, emitters, lamp->shown_by, points}, *lamp->scene, pose, &stop);
-  report.lights = now.of.lights.size(), report.direct = now.of.direct;
+  report.lights = now.lights.size();
   report.points = static_cast<std::size_t>(totals.points), report.between = static_cast<std::size_t>(totals.between);
-  report.missing = totals.now > 0 ? static_cast<float>(totals.missing / totals.now) : 0.0f;
   report.kept = totals.points > 0 ? static_cast<float>(totals.kept / totals.points) : 0.0f;
-  report.left = luminance(now.of.left) / std::max(luminance(now.of.flux), 1e-30f);
   report.through = lamp->scene->passes_through(pose);
-  report.reaches_nothing = !now.of.lights.empty() && !(totals.now > 0);
+  report.reaches_nothing = !now.lights.empty() && !(totals.now > 0);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -187,7 +181,7 @@ void LiveLamps::look_again() {
   for (auto& [group, lamp] : lamps_) lamp->outdated = true, lamp->whole = is_rest(lamp->wanted);
 }
 
-// Walks, and what texels reflect, look at textures, which come while the job runs: they are made here.
+// What texels reflect looks at textures, which come while the job runs: they are made here.
 std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSettings& settings, bool coarse) {
   auto job = std::make_unique<Job>();
   Lamp& lamp = *lamps_[group];
@@ -200,8 +194,8 @@ std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSe
   job->pose = lamp.wanted;
   job->settings = settings;
   job->coarse = coarse;
-  LiveOptions lights = settings.lights;
-  if (coarse) lights.lights = std::min(lights.lights, std::max(lights.lights / kCoarseShare, kFewestCoarse));
+  std::uint32_t lights = settings.lights.lights;
+  if (coarse) lights = std::min(lights, std::max(lights / kCoarseShare, kFewestCoarse));
   job->now = pose_lights(*lamp.scene, lights, lamp.wanted);
   job->baked = pose_lights(*lamp.scene, lights, {});
   const Mat4 pack_from_lamp(pack_from_object(lamp.wanted));

@@ -18,12 +18,10 @@ namespace oriel {
 // Of a lamp that was moved.
 struct LiveReport {
   std::string lamp;
-  std::size_t lights = 0, direct = 0;   // the latter on the lamp
+  std::size_t lights = 0;
   std::size_t points = 0, between = 0;  // the latter without rays of their own
   double seconds = 0;
-  float missing = 0;       // over the light that it gives: what lights' extent takes of it near them
-  float left = 0;          // of its flux, what walks did not follow
-  std::uint32_t rays = 0;  // a texel, that bring bounced light; 0: lights do
+  std::uint32_t rays = 0;  // a texel, that bring bounced light
   float last = 0;          // of its light, what one bounce more would add
   float kept = 0;          // mean share of what the bake knows of it that still counts
   std::string through;     // the part that it goes through; empty: none

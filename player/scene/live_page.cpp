@@ -54,10 +54,9 @@ class Change {
   LiveTotals run() {
     const std::vector<PagePoint>& points = in_.points;
     const std::size_t finer = first_finer(in_.page, points);
-    LiveTotals totals =
-        each(in_.work, 0, finer, [&](std::size_t k, LiveSums& live, LiveTotals&) { at_texel(k, live); });
+    LiveTotals totals;
     const std::span<const PagePoint> texels(points.data(), finer);
-    for (const PagePoint& point : texels) known_[point.index] = 1;
+    for (std::size_t k = 0; k < finer; ++k) at_texel(k), known_[points[k].index] = 1;
     keep_from_neighbours(texels);
     for (const PagePoint& point : texels)
       change_.light[point.index] = settle(direct_[point.index], indirect_[point.index], kept_[point.index],
@@ -75,22 +74,17 @@ class Change {
     LiveSum both = direct;
     both += indirect;
     const float kept = both.kept().value_or(around);
-    sums.now += double{luminance(both.now)}, sums.missing += double{luminance(both.missing)};
+    sums.now += double{luminance(both.now)};
     sums.kept += double{kept};
     sums.points += 1;
     return both.now - kept * both.baked - (1 - kept) * own;
   }
 
-  LiveSum indirect(std::size_t k, LiveSums& live) const {
-    const PagePoint& point = in_.points[k];
-    LiveSum sum = live.at(LivePart::kIndirect, point.position, point.normal);
-    if (in_.bounced != nullptr) sum += in_.bounced->at(in_.number, k);
-    return sum;
-  }
+  LiveSum indirect(std::size_t k) const { return in_.bounced != nullptr ? in_.bounced->at(in_.number, k) : LiveSum(); }
 
-  void at_texel(std::size_t k, LiveSums& live) {
+  void at_texel(std::size_t k) {
     const std::uint32_t index = in_.points[k].index;
-    indirect_[index] = indirect(k, live);
+    indirect_[index] = indirect(k);
     LiveSum both = direct_[index];
     both += indirect_[index];
     kept_[index] = both.kept().value_or(kNone);
@@ -134,10 +128,9 @@ class Change {
     const TexelsAround around = texels_around(in_.page, point);
     const auto bounced_at = corners_of(around, indirect_), direct_at = corners_of(around, direct_);
     const bool alone = std::ranges::all_of(direct_at, [](const LiveSum* corner) { return corner == nullptr; });
-    const LiveSum bounced = alone ? indirect(k, live) : mix_sums(bounced_at, around.weight);
+    const LiveSum bounced = alone ? indirect(k) : mix_sums(bounced_at, around.weight);
     const bool smooth = !alone && (in_.work.coarse || is_smooth(direct_at));
-    const LiveSum direct =
-        smooth ? mix_sums(direct_at, around.weight) : live.at(LivePart::kDirect, point.position, point.normal);
+    const LiveSum direct = smooth ? mix_sums(direct_at, around.weight) : live.at(point.position, point.normal);
     if (smooth) sums.between += 1;
     const std::size_t i = point.index - in_.page.irradiance.size();
     change_.detail[i] =
@@ -176,7 +169,7 @@ LivePage::LivePage(const LiveWork& work, std::uint32_t number, const LightmapPag
 std::vector<LiveSum> LivePage::direct() const {
   std::vector<LiveSum> sums(page_.irradiance.size());
   each(work_, 0, first_finer(page_, points_), [&](std::size_t k, LiveSums& live, LiveTotals&) {
-    sums[points_[k].index] = live.at(LivePart::kDirect, points_[k].position, points_[k].normal);
+    sums[points_[k].index] = live.at(points_[k].position, points_[k].normal);
   });
   return sums;
 }

@@ -12,11 +12,9 @@ namespace oriel {
 
 // Sums over points.
 struct LiveTotals {
-  double now = 0, missing = 0, kept = 0;  // the lamp's light, lux; as LiveSum
-  double points = 0, between = 0;         // the latter: without rays of their own
-  void operator+=(const LiveTotals& o) {
-    now += o.now, missing += o.missing, kept += o.kept, points += o.points, between += o.between;
-  }
+  double now = 0, kept = 0;        // the lamp's light, lux; as LiveSum
+  double points = 0, between = 0;  // the latter: without rays of their own
+  void operator+=(const LiveTotals& o) { now += o.now, kept += o.kept, points += o.points, between += o.between; }
 };
 
 // A lamp's light at one pose.

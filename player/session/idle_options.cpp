@@ -80,7 +80,6 @@ const Rule kRules[] = {
        return a.path.empty() && (a.output.empty() || is_picture_file(a.output)) ? "it is of files in a folder"
                                                                                 : nullptr;
      }},
-    {"--live-indirect", no_moved_lamps},
     {"--live-lights", no_moved_lamps},
     {"--log-frames", no_window},
     {"--maps",

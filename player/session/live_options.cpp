@@ -10,10 +10,6 @@ std::vector<Option> live_options(const char* group, LiveSettings& out) {
   return {
       {"--live-lights", group, "Lights that stand for a lamp that was moved: more are smoother and slower",
        number(out.lights.lights, 1, kMostLiveLights), Use::kRare, "live_lights"},
-      {"--live-indirect", group,
-       "Who brings a moved lamp's bounced light: rays from texel to texel, or some of the lights, where its light "
-       "bounces (Keller's instant radiosity)",
-       choice(out.lights.indirect, kLiveIndirect), Use::kRare, "live_indirect"},
   };
 }
 

@@ -24,9 +24,6 @@ inline constexpr Named<MoverLights> kMoverLights[] = {{"harmonics", MoverLights:
                                                       {"shadowed", MoverLights::kShadowed},
                                                       {"unshadowed", MoverLights::kUnshadowed}};
 
-inline constexpr Named<LiveIndirect> kLiveIndirect[] = {{"lights", LiveIndirect::kLights},
-                                                        {"texels", LiveIndirect::kTexels}};
-
 inline constexpr Named<Quality> kQualities[] = {
     {"auto", Quality::kAutomatic}, {"fast", Quality::kFast}, {"full", Quality::kFull}};
 

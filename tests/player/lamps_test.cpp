@@ -92,7 +92,7 @@ TEST_F(LampsTest, DirectLightIsTheClosedForm) {
     const Picture picture = draw(pack, camera_above(), 64, 64,
                                  {.lights = {Vec3(factor), Vec3(1)},
                                   .lamps = {shifted({1, 0.5f, 0}), {}},
-                                  .live = {{.lights = 256, .direct_share = 1, .bounces = 0}}});
+                                  .live = {{.lights = 256, .bounces = 0}}});
     ASSERT_TRUE(picture.finite());
     for (const IVec2& pixel : {IVec2(32, 32), IVec2(60, 32), IVec2(10, 50)}) {
       const Vec2 at = (Vec2(pixel) + 0.5f) / 32.0f - 1.0f;
@@ -125,8 +125,7 @@ TEST_F(LampsTest, TheLampIsSeenWhereItIs) {
 }
 
 TEST_F(LampsTest, AnyNumberOfLightsIsFinite) {
-  for (const LiveOptions& lights : {LiveOptions{0}, LiveOptions{1}, LiveOptions{.lights = 3000, .bounces = 100},
-                                    LiveOptions{3000, LiveIndirect::kLights, 0.5f, 3}})
+  for (const LiveOptions& lights : {LiveOptions{0}, LiveOptions{1}, LiveOptions{.lights = 3000, .bounces = 100}})
     for (const Vec3& shift : {Vec3(0, -2, 0), Vec3(0, -1.9999f, 0), Vec3(0, -3, 0), Vec3(1e5f, 0, 0)}) {
       const Picture picture =
           draw(lit_floor(), camera_above(), 32, 32, {.lamps = {shifted(shift), {}}, .live = {lights, false}});
