@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kWarning = "oriel-import: warning: ", kError = "oriel-import: error: ";
+constexpr std::string_view kWarning = "oriel-import: warning: ", kError = "oriel-import: error: ",
+                           kRead = "oriel-import: read: ";
 
 // A file descriptor that is closed with it, and that no other child inherits.
 struct Descriptor {
@@ -114,6 +115,7 @@ class Child {
     for (std::size_t at = 0, end; (end = heard_.find('\n', at)) != std::string::npos; at = end + 1) {
       const std::string_view line = std::string_view(heard_).substr(at, end - at);
       if (line.starts_with(kWarning) && process_.warn) process_.warn(std::string(line.substr(kWarning.size())));
+      if (line.starts_with(kRead) && process_.read) process_.read(std::string(line.substr(kRead.size())));
       if (line.starts_with(kError)) error_ = line.substr(kError.size());
     }
     return {};

@@ -230,6 +230,10 @@ Result<Bytes> read_scene_file(const fs::path& path, std::uint64_t max_bytes, glt
   ImportProcess process;
   process.warn = [&](const std::string& text) { context.warning(text); };
   process.stopped = [&] { return context.stopped(); };
+  process.read = [&](const fs::path& file) {
+    if (const auto other = read_file(file, max_bytes))
+      inputs.emplace_back(file.lexically_proximate(fs::absolute(path).parent_path()).string(), hash128_hex(*other));
+  };
   return import_by_process(path, *foreign, process);
 }
 

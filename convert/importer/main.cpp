@@ -44,12 +44,24 @@ void limit(const ImportProcess& process) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);       // who waits for it is gone: so is what it is for
 }
 
+// Programs whose files say in their head who wrote them, but neither unit nor axis.
+struct KnownWriter {
+  std::string_view name;
+  double unit_m;
+  char up;
+};
+constexpr KnownWriter kWriters[] = {{"FreeCAD", 0.001, 'z'}, {"Sweet Home 3D", 0.01, 'y'}};
+
+std::string_view head_of(std::span<const std::byte> bytes) {
+  constexpr std::size_t kComments = 200;  // of bytes, where writers name themselves
+  return {reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), kComments)};
+}
+
 bool by_blender(const aiScene& scene, std::span<const std::byte> bytes) {
   aiString generator;
   if (scene.mMetaData && scene.mMetaData->Get("SourceAsset_Generator", generator))
     return std::string_view(generator.C_Str()).find("Blender") != std::string_view::npos;
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 80));
-  return text.starts_with("# Blender");  // the first line of its OBJs
+  return head_of(bytes).starts_with("# Blender");  // the first line of its OBJs
 }
 
 Result<Bytes> convert(const fs::path& path, const SourceFormat& format, std::span<const std::byte> bytes, char up) {
@@ -62,6 +74,9 @@ Result<Bytes> convert(const fs::path& path, const SourceFormat& format, std::spa
     files->replace_scene(std::move(ifc.text));
     unit_m = ifc.metres;
   }
+  if (format.extension == "obj" || format.extension == "ply" || format.extension == "stl")
+    for (const KnownWriter& writer : kWriters)
+      if (head_of(bytes).find(writer.name) != std::string_view::npos) unit_m = writer.unit_m, up = up ? up : writer.up;
   importer.SetPropertyBool("IMPORT_FBX_PRESERVE_PIVOTS", false);
   importer.SetPropertyInteger("PP_SBP_REMOVE", aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   importer.SetPropertyFloat("PP_GSN_MAX_SMOOTHING_ANGLE", 30);  // degrees: what CAD programs smooth by
@@ -76,7 +91,9 @@ Result<Bytes> convert(const fs::path& path, const SourceFormat& format, std::spa
                    "the {} cannot be read ({}): it is damaged, or of a version that is not read: {}", format.name,
                    said.empty() ? "no scene in it" : said, format.advice);
   const SourceScene source{*scene, *files, format.extension, by_blender(*scene, bytes), unit_m, complain};
-  return write_scene(source, up);
+  auto glb = write_scene(source, up);
+  for (const fs::path& file : files->read()) fmt::print(stderr, "oriel-import: read: {}\n", file.string());
+  return glb;
 }
 
 Result<Bytes> import(const Arguments& arguments, char up) {

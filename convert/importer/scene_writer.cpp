@@ -47,7 +47,7 @@ class Writer {
     for (unsigned i = 0; i < scene_.mNumCameras; ++i) cameras_[scene_.mCameras[i]->mName.C_Str()] = i;
     add_nodes();
     if (glb_.json["meshes"].empty())
-      return invalid(source_.files.scene_name(), "found no triangle, expected a scene with surfaces");
+      return invalid(source_.files.name(), "found no triangle, expected a scene with surfaces");
     return glb_.file();
   }
 

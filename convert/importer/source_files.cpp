@@ -64,7 +64,9 @@ Assimp::IOStream* SourceFiles::Open(const char* name, const char* mode) {
   if (!text_.empty() && name == alias_.string())
     return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size());
   const fs::path found = find(name);
-  return found.empty() || mode[0] != 'r' ? nullptr : DefaultIOSystem::Open(found.c_str(), mode);
+  if (found.empty() || mode[0] != 'r') return nullptr;
+  if (found != scene_) note_read(found);
+  return DefaultIOSystem::Open(found.c_str(), mode);
 }
 
 }  // namespace oriel

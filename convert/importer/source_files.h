@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace oriel {
@@ -22,6 +23,10 @@ class SourceFiles : public Assimp::DefaultIOSystem {
   std::string scene_name() const { return alias_.string(); }
 
   bool Exists(const char* name) const override { return !find(name).empty(); }
+  std::string name() const { return scene_.filename().string(); }
+  // What else was read: materials, textures.
+  const std::set<std::filesystem::path>& read() const { return read_; }
+  void note_read(const std::filesystem::path& file) const { read_.insert(file.lexically_normal()); }
   // What is read in place of the scene.
   void replace_scene(std::string text) { text_ = std::move(text); }
 
@@ -30,6 +35,7 @@ class SourceFiles : public Assimp::DefaultIOSystem {
  private:
   std::filesystem::path scene_, alias_;
   std::string text_;
+  mutable std::set<std::filesystem::path> read_;
   std::multimap<std::string, std::filesystem::path> around_;  // in lower case; those near the scene first
 };
 

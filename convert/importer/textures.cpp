@@ -76,9 +76,10 @@ Textures::Picture* Textures::picture(const aiMaterial& material, aiTextureType t
   std::optional<Picture>& found = at->second;
   if (!added) return found ? &*found : nullptr;
   const auto read = [&]() -> Status {
-    if (const aiTexture* embedded = source_.scene.GetEmbeddedTexture(path.c_str())) {
+    if (const aiTexture* embedded = source_.scene.GetEmbeddedTexture(path.c_str()); embedded && embedded->mWidth > 0) {
       const auto* data = reinterpret_cast<const std::byte*>(embedded->pcData);
-      found = Picture{path, {}, {}, {}};
+      const std::string hint = fmt::format(".{}", embedded->achFormatHint);  // by which its reader is found
+      found = Picture{path.ends_with(hint) ? path : path + hint, {}, {}, {}};
       if (embedded->mHeight == 0) {
         found->bytes.assign(data, data + embedded->mWidth);
         return {};
@@ -93,6 +94,7 @@ Textures::Picture* Textures::picture(const aiMaterial& material, aiTextureType t
     const std::filesystem::path file = source_.files.find(path);
     if (file.empty())
       return fail(ErrorCode::kIo, path, "is neither where the file says nor beside it or in folders there");
+    source_.files.note_read(file);
     ORIEL_TRY(Bytes bytes, read_file(file, std::uint64_t{1} << 30));  // bytes: more is no texture
     found = Picture{file.filename().string(), file, std::move(bytes), {}};
     return {};

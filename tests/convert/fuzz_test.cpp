@@ -66,7 +66,7 @@ void mutate(std::string& bytes, std::mt19937& random) {
 
 TEST(ImportFuzz, DamagedFilesAreReadOrRefusedInTime) {
   const char* wanted = std::getenv("ORIEL_FUZZ_FILES");
-  const int count = wanted ? std::atoi(wanted) : 16;
+  const int count = wanted ? std::atoi(wanted) : 8;
   const auto originals = seeds();
   const test::TempFolder folder;
   int read = 0, refused = 0, limited = 0;

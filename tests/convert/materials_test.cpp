@@ -91,6 +91,10 @@ TEST_F(ObjMaterials, TexturesWhereverTheyLie) {
     ASSERT_TRUE(in.ok()) << in.error();
     ASSERT_EQ(in.scene().images.size(), 1u) << path;
     EXPECT_EQ(in.scene().images[0].texels.at(0), red) << path;
+    std::vector<std::string> inputs;
+    for (const auto& [name, hash] : in.result->inputs) inputs.push_back(name);
+    EXPECT_THAT(inputs,
+                ::testing::UnorderedElementsAre("a.obj", "a.mtl", red == 10 ? "Textures/2k/Brick.PNG" : "wood.png"));
     const SceneMaterial& m = in.scene().materials.at(in.scene().surfaces[0].material);
     EXPECT_EQ(m.base_color.r, 1) << "the texture stands for the colour";
     EXPECT_EQ(in.scene().uv0.at(0).y + in.scene().uv0.at(2).y, 1);
