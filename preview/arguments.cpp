@@ -19,8 +19,8 @@ constexpr std::uint32_t kMostPasses = 1u << 20;
 
 std::vector<Option> output_options(PreviewArguments& a) {
   return {
-      {"SCENE", "Arguments", "The scene: .glb, or .gltf with its buffers and textures", path(a.scene.file, "FILE"),
-       Use::kRequired},
+      {"SCENE", "Arguments", "The scene: .glb, .gltf, or of another program: .fbx .dae .ifc .obj .3ds .ply .stl",
+       path(a.scene.file, "FILE"), Use::kRequired},
       {"--offscreen", kFrameGroup, "Draws one frame into a file, without a window", flag(a.offscreen), Use::kEveryday},
       {"-o,--output", kFrameGroup, "The picture: .png as shown, .exr linear cd/m²", path(a.output, "FILE"),
        Use::kEveryday, "", "", "", "--offscreen"},

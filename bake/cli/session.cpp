@@ -90,8 +90,8 @@ std::vector<Option> run_options(BakeSession& session) {
 }
 
 Option scene_argument(std::filesystem::path& scene) {
-  return {"SCENE", "Arguments", "The scene: .glb, or .gltf with its buffers and textures", path(scene, "FILE"),
-          Use::kRequired};
+  return {"SCENE", "Arguments", "The scene: .glb, .gltf, or of another program: .fbx .dae .ifc .obj .3ds .ply .stl",
+          path(scene, "FILE"), Use::kRequired};
 }
 
 void report_hard_stop(const std::filesystem::path& file, std::string text) {

@@ -14,6 +14,7 @@
 #include "bake/import/viewpoints.h"
 #include "bake/import/warning_group.h"
 #include "bake/jobs/parallel.h"
+#include "convert/import_process.h"
 #include "formats/core/file.h"
 #include "formats/core/hash.h"
 
@@ -214,23 +215,35 @@ void warn_of_topology(const Scene& scene, const Scene* last, Context& context) {
   odd.finish();
 }
 
-Result<Bytes> read_scene_file(const fs::path& path, std::uint64_t max_bytes) {
+// The bytes of a glTF: the file's own, or made of it. Its hash goes into `inputs`.
+Result<Bytes> read_scene_file(const fs::path& path, std::uint64_t max_bytes, gltf::InputHashes& inputs,
+                              Context& context) {
   std::error_code ec;
   const auto status = fs::status(path, ec);
   // Pipes and devices could block for ever.
   if (fs::exists(status) && !fs::is_regular_file(status))
     return fail(ErrorCode::kIo, path.string(), "is no regular file, expected a .gltf or .glb");
-  return read_file(path, max_bytes);
+  ORIEL_TRY(Bytes bytes, read_file(path, max_bytes));
+  inputs.emplace_back(path.filename().string(), hash128_hex(bytes));
+  ORIEL_TRY(const auto foreign, source_format(path, bytes));
+  if (!foreign) return bytes;
+  ImportProcess process;
+  process.warn = [&](const std::string& text) { context.warning(text); };
+  process.stopped = [&] { return context.stopped(); };
+  process.read = [&](const fs::path& file) {
+    if (const auto other = read_file(file, max_bytes))
+      inputs.emplace_back(file.lexically_proximate(fs::absolute(path).parent_path()).string(), hash128_hex(*other));
+  };
+  return import_by_process(path, *foreign, process);
 }
 
 Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& options, Context& context,
                                      const ImportedScene* last) {
-  ORIEL_TRY(const Bytes bytes, read_scene_file(path, options.max_bytes));
+  ImportedScene out;
+  ORIEL_TRY(const Bytes bytes, read_scene_file(path, options.max_bytes, out.inputs, context));
   gltf::MemoryBudget budget(options.max_bytes);
   const std::string file = path.filename().string();
   ORIEL_TRY_VOID(budget.take(bytes.size(), file));
-  ImportedScene out;
-  out.inputs.emplace_back(file, hash128_hex(bytes));
   ORIEL_TRY(const gltf::Container container, gltf::split_container(bytes, file));
   ORIEL_TRY(gltf::JsonDocument json, gltf::JsonDocument::parse(container.json, file));
   ORIEL_TRY(gltf::Document document, gltf::parse_document(json));

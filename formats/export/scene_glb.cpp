@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "formats/export/glb.h"
+#include "formats/core/glb.h"
 #include "formats/export/lightmap_texture.h"
 #include "formats/export/shown_page.h"
 #include "formats/image/display.h"
@@ -89,7 +89,7 @@ class SceneWriter {
   }
 
   std::size_t add_texture(const std::string& name, const Bytes& png, Json sampler) {
-    const std::size_t image = glb_.add_png(name, png), s = glb_.add("samplers", std::move(sampler));
+    const std::size_t image = glb_.add_image(name, png), s = glb_.add("samplers", std::move(sampler));
     return glb_.add("textures", {{"name", name}, {"source", image}, {"sampler", s}});
   }
 

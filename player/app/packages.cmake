@@ -27,6 +27,8 @@ install(FILES ${CMAKE_CURRENT_LIST_DIR}/oriel-play.desktop DESTINATION ${CMAKE_I
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/oriel.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages COMPONENT player)
 oriel_install(oriel-bake tools)
 oriel_install_completion(oriel-bake tools)
+oriel_install(oriel-import tools)
+oriel_install_completion(oriel-import tools)
 oriel_install(oriel-preview tools)
 oriel_install_completion(oriel-preview tools)
 oriel_install(oriel-inspect tools)

@@ -1,91 +1,62 @@
 #include "scenes/kit/glb_writer.h"
 
 #include <algorithm>
-#include <limits>
 
-#include "formats/core/json.h"
+#include "formats/core/glb.h"
 
 namespace oriel::sample {
 namespace {
-
-constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125;
-constexpr int kVertices = 34962, kIndices = 34963, kNoTarget = 0;
 
 Json to_json(const Vec3& v) {
   return Json::array({v.x, v.y, v.z});
 }
 
-// The file in progress: its JSON and its binary chunk.
-struct Glb {
-  Json json = Json::object();
-  ByteWriter binary;
+// Its extensions are named last.
+struct SampleGlb : Glb {
   bool uses_emissive_strength = false, uses_specular = false, uses_glass = false;
 };
 
-int add_view(Glb& glb, std::size_t bytes, int target) {
-  while (glb.binary.bytes().size() % 4 != 0) glb.binary.put(std::uint8_t{0});
-  Json view = {{"buffer", 0}, {"byteOffset", glb.binary.bytes().size()}, {"byteLength", bytes}};
-  if (target != kNoTarget) view["target"] = target;
-  glb.json["bufferViews"].push_back(std::move(view));
-  return static_cast<int>(glb.json["bufferViews"].size()) - 1;
-}
-
 // Floats as an accessor; with bounds where glTF wants them (positions and animation times).
 template <class Vector>
-int add_floats(Glb& glb, const std::vector<Vector>& values, const char* type, int target, bool bounds) {
+std::size_t add_floats(SampleGlb& glb, const std::vector<Vector>& values, const char* type, int target, bool bounds) {
   constexpr int kComponents = sizeof(Vector) / sizeof(float);
-  const int view = add_view(glb, values.size() * sizeof(Vector), target);
-  Json accessor = {{"bufferView", view}, {"componentType", kFloat}, {"count", values.size()}, {"type", type}};
+  const std::size_t added =
+      glb.add_accessor(std::as_bytes(std::span(values)), target, Glb::kFloats, values.size(), type);
+  if (!bounds) return added;
   const std::span<const float> floats(reinterpret_cast<const float*>(values.data()), values.size() * kComponents);
-  if (bounds) {
-    accessor["min"] = Json::array();
-    accessor["max"] = Json::array();
-    for (std::size_t c = 0; c < kComponents; ++c) {
-      float low = floats[c], high = floats[c];
-      for (std::size_t i = c; i < floats.size(); i += kComponents) {
-        low = std::min(low, floats[i]);
-        high = std::max(high, floats[i]);
-      }
-      accessor["min"].push_back(low);
-      accessor["max"].push_back(high);
+  Json& accessor = glb.json["accessors"][added];
+  accessor["min"] = Json::array();
+  accessor["max"] = Json::array();
+  for (std::size_t c = 0; c < kComponents; ++c) {
+    float low = floats[c], high = floats[c];
+    for (std::size_t i = c; i < floats.size(); i += kComponents) {
+      low = std::min(low, floats[i]);
+      high = std::max(high, floats[i]);
     }
+    accessor["min"].push_back(low);
+    accessor["max"].push_back(high);
   }
-  glb.binary.put_array(floats);
-  glb.json["accessors"].push_back(std::move(accessor));
-  return static_cast<int>(glb.json["accessors"].size()) - 1;
+  return added;
 }
 
-int add_indices(Glb& glb, const std::vector<std::uint32_t>& indices, std::size_t vertices) {
+std::size_t add_indices(SampleGlb& glb, const std::vector<std::uint32_t>& indices, std::size_t vertices) {
   // 65535 itself is the primitive restart value, which glTF forbids.
-  const bool small = vertices <= 65535;
-  const int view = add_view(glb, indices.size() * (small ? 2 : 4), kIndices);
-  if (small) {
-    const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
-    glb.binary.put_array(std::span<const std::uint16_t>(narrow));
-  } else {
-    glb.binary.put_array(std::span<const std::uint32_t>(indices));
-  }
-  glb.json["accessors"].push_back({{"bufferView", view},
-                                   {"componentType", small ? kUint16 : kUint32},
-                                   {"count", indices.size()},
-                                   {"type", "SCALAR"}});
-  return static_cast<int>(glb.json["accessors"].size()) - 1;
+  if (vertices > 65535) return glb.add_indices(indices);
+  const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
+  return glb.add_accessor(std::as_bytes(std::span(narrow)), Glb::kIndices, Glb::kUint16, narrow.size(), "SCALAR");
 }
 
-void add_textures(Glb& glb, const SampleScene& scene) {
+void add_textures(SampleGlb& glb, const SampleScene& scene) {
   for (const PngTexture& texture : scene.textures) {
-    const int view = add_view(glb, texture.png.size(), kNoTarget);
-    glb.binary.put_array(std::span<const std::byte>(texture.png));
-    glb.json["images"].push_back({{"name", texture.name}, {"mimeType", "image/png"}, {"bufferView", view}});
-    glb.json["textures"].push_back(
-        {{"name", texture.name}, {"sampler", 0}, {"source", static_cast<int>(glb.json["images"].size()) - 1}});
+    const std::size_t image = glb.add_image(texture.name, texture.png);
+    glb.add("textures", {{"name", texture.name}, {"sampler", 0}, {"source", image}});
   }
   if (!scene.textures.empty()) {
     glb.json["samplers"].push_back({{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 10497}, {"wrapT", 10497}});
   }
 }
 
-void add_glass(const SampleMaterial& material, Json& extensions, Glb& glb) {
+void add_glass(const SampleMaterial& material, Json& extensions, SampleGlb& glb) {
   extensions["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
   extensions["KHR_materials_ior"] = {{"ior", material.ior}};
   glb.uses_glass = true;
@@ -95,7 +66,7 @@ void add_glass(const SampleMaterial& material, Json& extensions, Glb& glb) {
                                         {"attenuationColor", to_json(material.attenuation_color)}};
 }
 
-void add_materials(Glb& glb, const SampleScene& scene) {
+void add_materials(SampleGlb& glb, const SampleScene& scene) {
   for (const SampleMaterial& material : scene.materials) {
     Json pbr = {
         {"baseColorFactor", Json::array({material.base_color.r, material.base_color.g, material.base_color.b, 1})}};
@@ -118,12 +89,12 @@ void add_materials(Glb& glb, const SampleScene& scene) {
   }
 }
 
-void add_meshes(Glb& glb, const SampleScene& scene) {
+void add_meshes(SampleGlb& glb, const SampleScene& scene) {
   for (const SampleMesh& mesh : scene.meshes) {
-    Json attributes = {{"POSITION", add_floats(glb, mesh.positions, "VEC3", kVertices, true)},
-                       {"NORMAL", add_floats(glb, mesh.normals, "VEC3", kVertices, false)}};
+    Json attributes = {{"POSITION", add_floats(glb, mesh.positions, "VEC3", Glb::kVertices, true)},
+                       {"NORMAL", add_floats(glb, mesh.normals, "VEC3", Glb::kVertices, false)}};
     if (scene.materials[mesh.material].texture >= 0) {
-      attributes["TEXCOORD_0"] = add_floats(glb, mesh.uvs, "VEC2", kVertices, false);
+      attributes["TEXCOORD_0"] = add_floats(glb, mesh.uvs, "VEC2", Glb::kVertices, false);
     }
     Json primitive = {{"attributes", std::move(attributes)},
                       {"indices", add_indices(glb, mesh.indices, mesh.positions.size())},
@@ -156,7 +127,7 @@ Json to_json(const Vec4& q) {
   return Json::array({q.x, q.y, q.z, q.w});
 }
 
-int add_camera_node(Glb& glb, const std::string& name, float fov_rad, const Vec3& eye, const Vec3& forward) {
+int add_camera_node(SampleGlb& glb, const std::string& name, float fov_rad, const Vec3& eye, const Vec3& forward) {
   glb.json["cameras"].push_back(
       {{"name", name}, {"type", "perspective"}, {"perspective", {{"yfov", fov_rad}, {"znear", 0.05}}}});
   glb.json["nodes"].push_back({{"name", name},
@@ -166,7 +137,7 @@ int add_camera_node(Glb& glb, const std::string& name, float fov_rad, const Vec3
   return static_cast<int>(glb.json["nodes"].size()) - 1;
 }
 
-void add_path(Glb& glb, const Path& path) {
+void add_path(SampleGlb& glb, const Path& path) {
   const int node = add_camera_node(glb, path.name, path.vertical_fov_rad, path.eyes[0], path.forwards[0]);
   std::vector<Vec4> rotations;
   for (const Vec3& forward : path.forwards) {
@@ -174,14 +145,14 @@ void add_path(Glb& glb, const Path& path) {
     // The shorter way from key to key: q and -q are the same rotation.
     rotations.push_back(!rotations.empty() && glm::dot(rotations.back(), q) < 0 ? -q : q);
   }
-  const int times = add_floats(glb, path.times_s, "SCALAR", kNoTarget, true);
-  const int translation = add_floats(glb, path.eyes, "VEC3", kNoTarget, false);
-  const int rotation = add_floats(glb, rotations, "VEC4", kNoTarget, false);
+  const std::size_t times = add_floats(glb, path.times_s, "SCALAR", Glb::kNoTarget, true);
+  const std::size_t translation = add_floats(glb, path.eyes, "VEC3", Glb::kNoTarget, false);
+  const std::size_t rotation = add_floats(glb, rotations, "VEC4", Glb::kNoTarget, false);
   Json animation = Json::object();
   animation["name"] = path.name;
   animation["channels"] = Json::array();
   animation["samplers"] = Json::array();
-  const auto channel = [&](int output, const char* property) {
+  const auto channel = [&](std::size_t output, const char* property) {
     animation["channels"].push_back({{"sampler", static_cast<int>(animation["samplers"].size())},
                                      {"target", {{"node", node}, {"path", property}}}});
     animation["samplers"].push_back({{"input", times}, {"output", output}, {"interpolation", "LINEAR"}});
@@ -191,7 +162,7 @@ void add_path(Glb& glb, const Path& path) {
   glb.json["animations"].push_back(std::move(animation));
 }
 
-void add_nodes(Glb& glb, const SampleScene& scene) {
+void add_nodes(SampleGlb& glb, const SampleScene& scene) {
   for (const Node& node : scene.nodes) {
     Json out = {{"name", node.name}, {"mesh", node.mesh}};
     if (node.position != Vec3(0)) out["translation"] = to_json(node.position);
@@ -257,8 +228,8 @@ Status check(const SampleScene& scene) {
 
 Result<Bytes> write_glb(const SampleScene& scene) {
   ORIEL_TRY_VOID(check(scene));
-  Glb glb;
-  glb.json["asset"] = {{"version", "2.0"}, {"generator", "oriel-scenes"}};
+  SampleGlb glb;
+  glb.json["asset"]["generator"] = "oriel-scenes";
   glb.json["scene"] = 0;
   add_textures(glb, scene);
   add_materials(glb, scene);
@@ -272,28 +243,7 @@ Result<Bytes> write_glb(const SampleScene& scene) {
   if (glb.uses_glass)
     for (const char* name : {"KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume"})
       glb.json["extensionsUsed"].push_back(name);
-  while (glb.binary.bytes().size() % 4 != 0) glb.binary.put(std::uint8_t{0});
-  const Bytes binary = glb.binary.take();
-  glb.json["buffers"].push_back({{"byteLength", binary.size()}});
-
-  std::string text = glb.json.dump();
-  while (text.size() % 4 != 0) text += ' ';
-  const std::uint64_t total = 12 + 8 + text.size() + 8 + binary.size();
-  if (total > std::numeric_limits<std::uint32_t>::max()) {
-    return fail(ErrorCode::kRuntime, scene.name, "found {} bytes, expected below 4 GiB, the limit of .glb", total);
-  }
-  ByteWriter out;
-  const auto put32 = [&](std::uint64_t value) { out.put(static_cast<std::uint32_t>(value)); };
-  put32(0x46546C67);  // "glTF"
-  put32(2);
-  put32(total);
-  put32(text.size());
-  put32(0x4E4F534A);  // "JSON"
-  out.put_array(std::span<const char>(text));
-  put32(binary.size());
-  put32(0x004E4942);  // "BIN"
-  out.put_array(std::span<const std::byte>(binary));
-  return out.take();
+  return glb.file();
 }
 
 }  // namespace oriel::sample

@@ -29,10 +29,12 @@ const Arrows kRestsOn = {
     {"formats/analysis", {"formats/pack", "formats/image"}},
     {"formats/export", {"formats/analysis"}},
     {"formats/inspect", {"formats/export", "formats/cli"}},
+    {"convert", {"formats/core"}},
+    {"convert/importer", {"convert", "formats/cli", "formats/image"}},  // a process of its own: nothing links it
     {"bake/jobs", {"formats/core"}},
     {"bake/brdf", {"formats/core"}},
     {"bake/scene", {"bake/jobs", "bake/brdf", "formats/query"}},
-    {"bake/import", {"bake/scene", "formats/query"}},
+    {"bake/import", {"bake/scene", "convert", "formats/query"}},
     {"bake/trace", {"bake/scene", "formats/query"}},
     {"bake/atlas", {"bake/scene"}},
     {"bake/radiosity/texels", {"bake/trace", "bake/atlas"}},
@@ -85,7 +87,8 @@ const Arrows kArrows = closed(kRestsOn);
 const std::map<std::string, std::set<std::string>> kGuarded = {
     {"embree3/", {"bake/trace"}},
     {"tbb/", {"bake/jobs"}},
-    {"OpenImageIO/", {"bake/import"}},
+    {"OpenImageIO/", {"bake/import", "convert/importer"}},
+    {"assimp/", {"convert/importer"}},
     {"CGAL/", {"bake/import"}},
     {"OpenMesh/", {"bake/atlas"}},
     {"Eigen/", {"bake/atlas", "bake/radiosity", "bake/transfer"}},
@@ -156,6 +159,8 @@ TEST(Layers, TheCheckerSeesAForbiddenInclude) {
   EXPECT_NE(objection("player/scene", "bake/jobs/context.h"), "");
   EXPECT_NE(objection("bake/radiosity", "embree3/rtcore.h"), "");
   EXPECT_NE(objection("bake/run", "nlohmann/json.hpp"), "");
+  EXPECT_NE(objection("bake/import", "assimp/scene.h"), "");
+  EXPECT_NE(objection("bake/import", "convert/importer/textures.h"), "");
   EXPECT_NE(objection("player/passes", "study/rooms.h"), "");
   EXPECT_NE(objection("bake/radiosity/texels", "bake/radiosity/radiosity.h"), "");
   EXPECT_EQ(objection("bake/radiosity", "bake/trace/accel.h"), "");
@@ -172,7 +177,7 @@ TEST(Layers, ArrowsHaveNoCircles) {
 }
 
 TEST(Layers, FoldersOfSourcesAreInTheTable) {
-  for (const char* top : {"formats", "bake", "player", "preview", "scenes", "trade"})
+  for (const char* top : {"formats", "convert", "bake", "player", "preview", "scenes", "trade"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
       const std::string folder = fs::relative(entry.path().parent_path(), kRoot).string();
       EXPECT_TRUE(!is_source(entry.path()) || kArrows.contains(folder)) << entry.path();
@@ -190,7 +195,7 @@ std::string without_comments(const fs::path& path) {
 TEST(Layers, MethodsOfOthersAreInTheStudyAlone) {
   const std::regex names("published|bastos|barczak|diefenbach|\\bherf|udeshi", std::regex::icase);
   EXPECT_TRUE(std::regex_search("Method::kBastos1999", names));
-  for (const char* top : {"formats", "bake", "player", "preview", "scenes", "trade", "shaders", "web/src"})
+  for (const char* top : {"formats", "convert", "bake", "player", "preview", "scenes", "trade", "shaders", "web/src"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / top))
       if (entry.is_regular_file()) {
         const std::string code = without_comments(entry.path());
@@ -285,16 +290,27 @@ TEST(Layers, FilesStaySmall) {
     }
 }
 
+std::string libraries_of(const std::string& program) {
+  const std::string command = "ldd '" + (fs::path(ORIEL_BIN_DIR) / program).string() + "'";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string libraries;
+  std::array<char, 4096> buffer{};
+  while (pipe && std::fgets(buffer.data(), buffer.size(), pipe)) libraries += buffer.data();
+  EXPECT_EQ(pipe ? pclose(pipe) : -1, 0) << command;
+  return libraries;
+}
+
+// What other formats' readers do to a process must not be done to a bake.
+TEST(Layers, TheImporterAloneLinksAssimp) {
+  for (const char* program : {"oriel-bake", "oriel-preview", "oriel-play", "oriel-inspect"})
+    EXPECT_EQ(libraries_of(program).find("assimp"), std::string::npos) << program;
+  EXPECT_NE(libraries_of("oriel-import").find("assimp"), std::string::npos);
+}
+
 // The player must stay light enough for a kiosk: neither it nor the inspector loads the baker's libraries.
 TEST(Layers, PlayerAndInspectorLinkNoBaker) {
   for (const char* program : {"oriel-play", "oriel-inspect"}) {
-    const std::string command = "ldd '" + (fs::path(ORIEL_BIN_DIR) / program).string() + "'";
-    FILE* pipe = popen(command.c_str(), "r");
-    ASSERT_NE(pipe, nullptr);
-    std::string libraries;
-    std::array<char, 4096> buffer{};
-    while (std::fgets(buffer.data(), buffer.size(), pipe)) libraries += buffer.data();
-    ASSERT_EQ(pclose(pipe), 0) << command;
+    const std::string libraries = libraries_of(program);
     EXPECT_NE(libraries.find("libzstd"), std::string::npos) << "ldd printed nothing of use";
     for (const char* heavy : {"embree", "tbb", "OpenImageIO", "CGAL", "OpenMesh", "draco"})
       EXPECT_EQ(libraries.find(heavy), std::string::npos) << program << " links " << heavy;

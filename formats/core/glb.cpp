@@ -1,15 +1,8 @@
-#include "formats/export/glb.h"
+#include "formats/core/glb.h"
 
 #include <algorithm>
 
 namespace oriel {
-namespace {
-
-constexpr int kByteComponents = 5121, kIntComponents = 5125, kFloatComponents = 5126;
-constexpr int kVertices = 34962, kIndices = 34963, kNoTarget = 0;
-
-}  // namespace
-
 std::size_t Glb::add(const char* array, Json element) {
   json[array].push_back(std::move(element));
   return json[array].size() - 1;
@@ -35,10 +28,10 @@ std::size_t Glb::add_accessor(std::span<const std::byte> bytes, int target, int 
 }
 
 std::size_t Glb::add_vectors(std::span<const Vec3> values) {
-  return add_accessor(std::as_bytes(values), kVertices, kFloatComponents, values.size(), "VEC3");
+  return add_accessor(std::as_bytes(values), kVertices, kFloats, values.size(), "VEC3");
 }
 std::size_t Glb::add_vectors(std::span<const Vec2> values) {
-  return add_accessor(std::as_bytes(values), kVertices, kFloatComponents, values.size(), "VEC2");
+  return add_accessor(std::as_bytes(values), kVertices, kFloats, values.size(), "VEC2");
 }
 
 std::size_t Glb::add_positions(std::span<const Vec3> values) {
@@ -51,18 +44,18 @@ std::size_t Glb::add_positions(std::span<const Vec3> values) {
 }
 
 std::size_t Glb::add_colors(std::span<const std::uint32_t> rgba8) {
-  const std::size_t accessor = add_accessor(std::as_bytes(rgba8), kVertices, kByteComponents, rgba8.size(), "VEC4");
+  const std::size_t accessor = add_accessor(std::as_bytes(rgba8), kVertices, kBytes, rgba8.size(), "VEC4");
   json["accessors"][accessor]["normalized"] = true;
   return accessor;
 }
 
 std::size_t Glb::add_indices(std::span<const std::uint32_t> values) {
-  return add_accessor(std::as_bytes(values), kIndices, kIntComponents, values.size(), "SCALAR");
+  return add_accessor(std::as_bytes(values), kIndices, kUint32, values.size(), "SCALAR");
 }
 
-std::size_t Glb::add_png(const std::string& name, std::span<const std::byte> png) {
-  const std::size_t view = add_view(png, kNoTarget);
-  return add("images", {{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
+std::size_t Glb::add_image(const std::string& name, std::span<const std::byte> bytes, const char* type) {
+  const std::size_t view = add_view(bytes, kNoTarget);
+  return add("images", {{"name", name}, {"mimeType", type}, {"bufferView", view}});
 }
 
 Result<Bytes> Glb::file() const {

@@ -13,6 +13,10 @@ namespace oriel {
 
 class Glb {
  public:
+  // glTF 2.0, 3.6.2.2 and 5.11.5.
+  enum Component { kBytes = 5121, kUint16 = 5123, kUint32 = 5125, kFloats = 5126 };
+  enum Target { kNoTarget = 0, kVertices = 34962, kIndices = 34963 };
+
   Json json = {{"asset", {{"version", "2.0"}, {"generator", "oriel-inspect"}}}};
 
   // Accessors by their number. Positions get the bounds that glTF wants of them.
@@ -21,8 +25,10 @@ class Glb {
   std::size_t add_vectors(std::span<const Vec2> values);
   std::size_t add_colors(std::span<const std::uint32_t> rgba8);
   std::size_t add_indices(std::span<const std::uint32_t> values);
-  // An image by its number.
-  std::size_t add_png(const std::string& name, std::span<const std::byte> png);
+  std::size_t add_accessor(std::span<const std::byte> bytes, int target, int component, std::size_t count,
+                           const char* type);
+  // An image by its number; a PNG unless told.
+  std::size_t add_image(const std::string& name, std::span<const std::byte> bytes, const char* type = "image/png");
   // Appends to a top-level array; the number of the element.
   std::size_t add(const char* array, Json element);
   // Names the extension as used.
@@ -33,8 +39,6 @@ class Glb {
 
  private:
   std::size_t add_view(std::span<const std::byte> bytes, int target);
-  std::size_t add_accessor(std::span<const std::byte> bytes, int target, int component, std::size_t count,
-                           const char* type);
   ByteWriter binary_;
 };
 
