@@ -23,10 +23,11 @@ struct HalfPage {
   std::vector<Half4> detail{};
 };
 
+inline constexpr std::uint16_t kHalfOne = 0x3c00;  // 1 as IEEE 754's binary16
+
 inline Half4 halves_of(const Vec3& v, float scale = 1) {
-  constexpr std::uint16_t kOne = 0x3c00;
-  if (!is_finite(v)) return {0, 0, 0, kOne};
-  return {half_from_float(v.x * scale), half_from_float(v.y * scale), half_from_float(v.z * scale), kOne};
+  if (!is_finite(v)) return {0, 0, 0, kHalfOne};
+  return {half_from_float(v.x * scale), half_from_float(v.y * scale), half_from_float(v.z * scale), kHalfOne};
 }
 
 inline std::vector<Half4> halves_of(const std::vector<Vec3>& directions) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/core/half.h"
+#include "formats/pack/half_page.h"
 #include "formats/pack/sections.h"
 
 namespace oriel {
@@ -158,12 +159,11 @@ namespace {
 
 // Halves of light as they lie in the file.
 Status get_half_texels(ByteReader& in, std::uint64_t count, const char* what, std::vector<Half4>& light) {
-  constexpr std::uint16_t kOne = 0x3c00;
   unsigned signs = 0;  // as get_halves
   for_each_plane_block<6>(in, count, [&](const PlaneBlock<6>& block) {
     if (light.empty()) light.reserve(count);
     std::array<Half4, kPlaneBlock> made;
-    for (std::size_t i = 0; i < block.size; ++i) made[i][3] = kOne;
+    for (std::size_t i = 0; i < block.size; ++i) made[i][3] = kHalfOne;
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < block.size; ++i) {
         const std::uint16_t half = half_at(block, c, i);
