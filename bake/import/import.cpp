@@ -8,6 +8,7 @@
 #include "bake/import/images.h"
 #include "bake/import/lighting.h"
 #include "bake/import/movers.h"
+#include "bake/import/opacity.h"
 #include "bake/import/repair.h"
 #include "bake/import/seams.h"
 #include "bake/import/solids.h"
@@ -262,6 +263,8 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   join_seams(out.scene);
   if (options.double_sided)
     for (SceneMaterial& material : out.scene.materials) material.double_sided = true;
+  ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(last, context));
+  find_opaque(out.scene);
   separate_layers(out.scene, context);
   find_solids(out.scene, context);
   std::vector<std::uint32_t> moving = nodes.movers.nodes;
@@ -272,7 +275,6 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY_VOID(place_movers(nodes, animations, out.scene, context));
   ORIEL_TRY_VOID(move_nodes(options.moves, out.scene));
   ORIEL_TRY_VOID(apply_lighting(options, budget, out, context));
-  ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(last, context));
   warn_of_topology(out.scene, last != nullptr ? &last->scene : nullptr, context);
   if (context.stopped()) return fail(ErrorCode::kStopped, file, "stopped");
   return out;

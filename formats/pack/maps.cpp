@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/core/half.h"
+#include "formats/pack/half_page.h"
 #include "formats/pack/sections.h"
 
 namespace oriel {

@@ -19,6 +19,7 @@ void apply(const RasterState& state) {
   glBlendEquation(state.blend == Blend::kMax ? GL_MAX : GL_FUNC_ADD);
   if (state.blend == Blend::kAdd) glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ZERO);
   if (state.blend == Blend::kMultiply) glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
+  if (state.blend == Blend::kCover) glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
   enable(GL_CULL_FACE, state.cull != Cull::kNone);
   glFrontFace(state.mirrored ? GL_CW : GL_CCW);
   glCullFace(state.cull == Cull::kFront ? GL_FRONT : GL_BACK);

@@ -5,8 +5,9 @@
 
 namespace oriel::gpu {
 
-// kAdd: colour adds, alpha is replaced; kMultiply: colour only; kMax: the larger of each channel.
-enum class Blend { kNone, kAdd, kMultiply, kMax };
+// kAdd: colour adds, alpha is replaced; kMultiply: colour only; kMax: the larger of each channel; kCover: colour adds,
+// and what is behind keeps what alpha leaves of it.
+enum class Blend { kNone, kAdd, kMultiply, kMax, kCover };
 enum class Cull { kNone, kBack, kFront };
 
 struct RasterState {

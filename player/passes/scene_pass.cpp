@@ -129,10 +129,10 @@ void ScenePass::draw_opaque(const FrameContext& context, std::span<const DrawBat
   opaque_.set("u_alpha_kind", 0);
   gpu::RasterState state;
   state.depth_test = true;
-  state.stencil_read = kReflectorBits;
   for (const DrawBatch& batch : shown) {
-    const bool twice = reflective.contains(batch.material);
     const Material& m = scene.pack().materials[batch.material];
+    const bool twice = is_partly_opaque(m) || reflective.contains(batch.material);
+    state.stencil_read = is_partly_opaque(m) ? kSeeThroughBit : kReflectorBits;
     const gpu::Program& program = is_plain(scene, batch.material) && !change ? plain_ : opaque_;
     program.use();
     state.cull = cull_of(m);
@@ -208,19 +208,25 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
       if (solid) set_frame(transparent_, context);
     }
     for (const DrawRange& range : one.ranges) {
-      state.cull = cull_of(scene.pack().materials[range.material]);
+      const Material& m = scene.pack().materials[range.material];
+      state.cull = cull_of(m);
       set_material(transparent_, scene, range.material, range.lightmap_page);
+      // Coverage dims all colours alike: in one draw with its light each layer of a mesh covers those before it.
+      const bool covers = m.alpha_mode == AlphaMode::kBlend && m.transmission <= 0;
+      const gpu::Buffer ordered = covers ? scene.bind_far_to_near(range, view) : gpu::Buffer();
+      const gpu::Blend added = covers ? gpu::Blend::kCover : gpu::Blend::kAdd;
       const auto draw = [&](gpu::Blend blend, bool dimming, GLenum func, float undirected) {
         state.blend = blend;
         state.stencil_func = func;
         gpu::apply(state);
         transparent_.set("u_dimming", dimming ? 1 : 0);
         transparent_.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
-        draw_indices(range.first_index, range.index_count, stats);
+        draw_indices(covers ? 0 : range.first_index, range.index_count, stats);
       };
-      if (!solid) draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);
-      draw(gpu::Blend::kAdd, false, view.mirrored ? GL_ALWAYS : GL_EQUAL, weights.undirected);
-      if (!view.mirrored) draw(gpu::Blend::kAdd, false, GL_NOTEQUAL, 0);
+      if (!solid && !covers) draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);
+      draw(added, false, view.mirrored ? GL_ALWAYS : GL_EQUAL, weights.undirected);
+      if (!view.mirrored) draw(added, false, GL_NOTEQUAL, 0);
+      if (covers) scene.bind_geometry();
     }
   }
   return {};

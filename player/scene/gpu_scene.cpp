@@ -5,6 +5,7 @@
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
 #include "player/scene/live_lamps.h"
+#include "player/scene/surface.h"
 
 namespace oriel {
 namespace {
@@ -62,7 +63,13 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu:
   scene->lights_.assign(scene->pack_.light_groups.size(), Vec3(1));
   scene->map_meshes_ = GpuMapMeshes(scene->pack_.map_meshes.size());
   scene->upload_geometry();
-  for (const Mover& mover : scene->pack_.movers) scene->movers_.push_back(upload_mover(mover));
+  for (const Mover& mover : scene->pack_.movers) {
+    scene->movers_.push_back(upload_mover(mover));
+    for (const MeshPart& part : mover.mesh.parts) {  // they hide what is behind; their materials are theirs alone
+      AlphaMode& mode = scene->pack_.materials[part.material].alpha_mode;
+      if (mode == AlphaMode::kBlend) mode = AlphaMode::kOpaque;
+    }
+  }
   scene->upload_images(std::move(pack.images), loading);
   scene->live_ = std::make_unique<LiveLamps>(scene->pack_, scene->images_->source());
   if (!loading.background && loading.limit == kNoLimit) ORIEL_TRY_VOID(first_of(scene->advance_all()));
@@ -84,7 +91,9 @@ void GpuScene::upload_geometry() {
   const auto divided = [&](std::uint32_t material) { return known && !is_transparent(material); };
   for (const DrawRange& range : sorted_ranges(mesh, indices, pack_.visible_sets.runs, divided)) {
     bounds_.extend(range.bounds);
-    (is_transparent(range.material) ? transparent_ : opaque_).push_back(range);
+    const bool transparent = is_transparent(range.material);
+    if (transparent) transparent_.push_back(range);
+    if (!transparent || is_partly_opaque(pack_.materials[range.material])) opaque_.push_back(range);
   }
   // Of both sides of a shell, which are as far away, the inside is drawn first: from outside it lies behind.
   std::ranges::stable_partition(transparent_, [&](const DrawRange& r) { return faces_inward(mesh, indices, r); });
@@ -101,6 +110,20 @@ void GpuScene::upload_geometry() {
   index_buffer_ = gpu::Buffer(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
   glBindVertexArray(0);
   indices_ = std::move(indices);
+}
+
+gpu::Buffer GpuScene::bind_far_to_near(const DrawRange& range, const View& view) const {
+  const Vec4 towards = glm::transpose(view.view_from_pack)[2];
+  std::vector<std::pair<float, UVec3>> sorted;
+  for (std::uint32_t i = range.first_index; i < range.first_index + range.index_count; i += 3) {
+    const UVec3 t(indices_[i], indices_[i + 1], indices_[i + 2]);
+    const auto& p = pack_.mesh.positions;
+    sorted.emplace_back(glm::dot(Vec3(towards), p[t.x] + p[t.y] + p[t.z]), t);
+  }
+  std::ranges::stable_sort(sorted, {}, [](const auto& triangle) { return triangle.first; });
+  std::vector<std::uint32_t> order;
+  for (const auto& [depth, t] : sorted) order.insert(order.end(), {t.x, t.y, t.z});
+  return gpu::Buffer(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(order));
 }
 
 std::vector<DrawBatch> GpuScene::show(const Frustum& frustum, const SeenMask& seen) {

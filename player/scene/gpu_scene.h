@@ -128,6 +128,8 @@ class GpuScene {
     glBindVertexArray(vertex_array_.name());
     index_buffer_.bind(GL_ELEMENT_ARRAY_BUFFER);
   }
+  // The triangles of a see-through range from far to near, as the bound geometry's indices: draws begin at 0.
+  gpu::Buffer bind_far_to_near(const DrawRange& range, const View& view) const;
   // The opaque triangles in the frustum, without groups that are not seen; uploads their indices. For draws after
   // bind_shown(), until the next call.
   std::vector<DrawBatch> show(const Frustum& frustum, const SeenMask& seen);

@@ -1,6 +1,7 @@
 // How a material's surfaces are drawn: what all passes that shade them set.
 #pragma once
 
+#include "formats/assets/opacity.h"
 #include "player/gpu/program.h"
 #include "player/gpu/raster_state.h"
 #include "player/scene/frame_options.h"
@@ -32,7 +33,14 @@ inline gpu::Cull cull_of(const Material& material) {
   return material.double_sided ? gpu::Cull::kNone : gpu::Cull::kBack;
 }
 
+// Blended, and it may be whole in places: there it is drawn and hides as opaque surfaces do, the rest of it is seen
+// through.
+inline bool is_partly_opaque(const Material& material) {
+  return material.alpha_mode == AlphaMode::kBlend && material.alpha >= kOpaqueAlpha && material.transmission <= 0;
+}
+
 inline float cutoff_of(const Material& material) {
+  if (is_partly_opaque(material)) return kOpaqueAlpha;
   return material.alpha_mode == AlphaMode::kMask ? std::max(material.alpha_cutoff, 0.0f) : -1.0f;
 }
 

@@ -1,9 +1,9 @@
-// See-through surfaces, drawn twice: once to dim what lies behind, once to add their own light.
+// See-through surfaces. Those that tint what lies behind are drawn twice: once to dim it, once to add their own light.
 #include "passes/lightmap.glsl"
 
 uniform sampler2D u_base_texture;
 uniform vec4 u_base_color;
-uniform float u_alpha_cutoff;  // negative: no cut-outs
+uniform float u_alpha_cutoff;  // negative: no cut-outs; what covers is cut from there up, where it is drawn as opaque
 uniform bool u_covers;         // alpha is coverage; else the surface is whole
 uniform float u_diffuse_share;
 uniform float u_transmission;
@@ -20,7 +20,7 @@ layout(location = 0) out vec4 o_light;
 void main() {
   vec3 normal = tilted_by_map();
   vec4 base = u_base_color * v_color * texture(u_base_texture, v_uv);
-  if (u_alpha_cutoff >= 0.0 && base.a < u_alpha_cutoff) discard;
+  if (u_alpha_cutoff >= 0.0 && (base.a < u_alpha_cutoff) != u_covers) discard;
   float coverage = u_covers ? clamp(base.a, 0.0, 1.0) : 1.0;
   vec3 reflectance = u_unlit ? vec3(0.0) : reflectance_of(normal);
   if (u_dimming) {
@@ -33,5 +33,5 @@ void main() {
   light += u_weights.y * ambient_reflection(reflectance, irradiance);
   light += u_weights.z * u_emission * texture(u_emission_texture, v_uv).rgb;
   if (u_unlit) light = u_weights.z * u_emission * base.rgb;
-  o_light = vec4(coverage * light, 0.0);
+  o_light = vec4(coverage * light, coverage);
 }

@@ -131,6 +131,55 @@ TEST_F(Shading, SeeThroughSurfacesDimAndAdd) {
   expect_light(draw(pack, facing_camera(), 4, 4).at(1, 1), 4.0f + 0.75f * Vec3(64, 32, 16));
 }
 
+// An unlit pane of one mesh with those before: a colour, a share that covers.
+void add_pane(Pack& pack, float z, const glm::uvec4& color) {
+  add_quad(pack, {-4, -4, z}, {8, 0, 0}, {0, 8, 0}, 0, -1);
+  if (pack.mesh.parts.size() > 1) pack.mesh.parts.pop_back(), pack.mesh.parts[0].index_count += 6;
+  for (int corner = 0; corner < 4; ++corner)
+    pack.mesh.colors.push_back(color.r | color.g << 8 | color.b << 16 | color.a << 24);
+}
+
+Pack unlit_panes() {
+  Pack pack;
+  pack.sky = Vec3(64);
+  pack.materials.resize(1);
+  pack.materials[0].alpha_mode = AlphaMode::kBlend;
+  pack.materials[0].unlit = pack.materials[0].double_sided = true;
+  pack.materials[0].emission = Vec3(100);
+  return pack;
+}
+
+TEST_F(Shading, WhereAlphaIsOneBlendedSurfacesHide) {
+  Pack pack = unlit_panes();
+  add_pane(pack, 0, {255, 0, 0, 255});
+  const Picture whole = draw(pack, facing_camera(), 4, 4);
+  add_pane(pack, -1, {0, 255, 0, 255});
+  add_pane(pack, -2, {0, 0, 255, 128});
+  EXPECT_EQ(draw(pack, facing_camera(), 4, 4).rgb, whole.rgb);
+  pack.materials[0].alpha_mode = AlphaMode::kOpaque;
+  EXPECT_EQ(draw(pack, facing_camera(), 4, 4).rgb, whole.rgb);
+}
+
+// From both sides, whatever the order of its triangles.
+TEST_F(Shading, LayersOfOneMeshCoverEachOther) {
+  Pack pack = unlit_panes();
+  pack.materials[0].base_color = Vec3(1);
+  const std::vector<glm::uvec4> colors{
+      {255, 0, 0, 51}, {0, 255, 0, 102}, {0, 0, 255, 153}, {255, 255, 0, 51}, {0, 255, 255, 204}};
+  for (int i = 0; i < 5; ++i) add_pane(pack, -0.3f * static_cast<float>(i), colors[static_cast<std::size_t>(i)]);
+  const auto over = [&](Vec3 light, int pane) {
+    const glm::uvec4 c = colors[static_cast<std::size_t>(pane)];
+    const float share = static_cast<float>(c.a) / 255;
+    return (1 - share) * light + share * 100.0f / 255.0f * Vec3(c);
+  };
+  Vec3 front(64), back(64);
+  for (int i = 0; i < 5; ++i) front = over(front, 4 - i), back = over(back, i);
+  expect_light(draw(pack, facing_camera(), 4, 4).at(1, 1), front, 0.02f);
+  Camera behind = facing_camera(-3);
+  behind.forward = {0, 0, 1};
+  expect_light(draw(pack, behind, 4, 4).at(1, 1), back, 0.02f);
+}
+
 // A shade whose sides are parts of their own, as far away: before its far inside lies its near outside.
 TEST_F(Shading, TheInsideOfAShellLiesBehindItsOutside) {
   Pack pack;

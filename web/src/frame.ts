@@ -2,7 +2,7 @@
 import * as v from './vec';
 import { Program, apply, bind, makeTarget, makeTexture } from './gl';
 import { Reflections } from './reflections';
-import { cutoffOf } from './scene';
+import { cutoffOf, isPartlyOpaque } from './scene';
 import { makeView } from './view';
 import type { Device, GpuScene, Range } from './scene';
 import type { RasterState } from './gl';
@@ -147,16 +147,17 @@ export class Renderer {
     const { gl } = this.device;
     for (const program of [plain, this.opaque]) this.setFrame(program, scene, view, distance);
     for (const range of shown) {
-      const m = scene.data.materials[range.material]!, twice = reflective.has(range.material);
+      const m = scene.data.materials[range.material]!, partly = isPartlyOpaque(m);
+      const twice = reflective.has(range.material) || (partly && !distance), stencilRead = partly ? seeThroughBit : reflectorBits;
       const program = m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit && !scene.picture(range.material) ? plain : this.opaque;
       program.use();
       scene.setSurface(program, range);
       program.set('u_weights', [1, 1, 1]);
-      apply(gl, { ...state, cull: !m.doubleSided, stencilRead: reflectorBits, stencilFunc: twice ? gl.EQUAL : undefined });
+      apply(gl, { ...state, cull: !m.doubleSided, stencilRead, stencilFunc: twice ? gl.EQUAL : undefined });
       scene.draw(range);
       if (!twice) continue;
       program.set('u_weights', [1, 0, 1]);
-      apply(gl, { ...state, cull: !m.doubleSided, stencilRead: reflectorBits, stencilFunc: gl.NOTEQUAL, blend: distance ? undefined : 'add' });
+      apply(gl, { ...state, cull: !m.doubleSided, stencilRead, stencilFunc: gl.NOTEQUAL, blend: distance ? undefined : 'add' });
       scene.draw(range);
     }
   }
@@ -190,16 +191,18 @@ export class Renderer {
     this.setFrame(this.transparent, scene, view, false);
     for (const range of sorted) {
       scene.setSurface(this.transparent, range);
-      const state: RasterState = { depthTest: true, alpha: false, mirrored: view.mirrored, stencilRead: seeThroughBit, cull: !scene.data.materials[range.material]!.doubleSided };
+      const material = scene.data.materials[range.material]!, covers = material.alphaMode === 2 && material.transmission <= 0;
+      const state: RasterState = { depthTest: true, alpha: false, mirrored: view.mirrored, stencilRead: seeThroughBit, cull: !material.doubleSided };
       const draw = (more: RasterState, dimming: boolean, undirected: number): void => {
         apply(gl, { ...state, ...more });
         this.transparent.set('u_dimming', dimming);
         this.transparent.set('u_weights', [1, undirected, 1]);
         scene.draw(range);
       };
-      draw({ blend: 'multiply' }, true, 0);
-      draw({ blend: 'add', stencilFunc: view.mirrored ? undefined : gl.EQUAL }, false, 1);
-      if (!view.mirrored) draw({ blend: 'add', stencilFunc: gl.NOTEQUAL }, false, 0);
+      if (!covers) draw({ blend: 'multiply' }, true, 0);
+      const blend = covers ? 'cover' : 'add';
+      draw({ blend, stencilFunc: view.mirrored ? undefined : gl.EQUAL }, false, 1);
+      if (!view.mirrored) draw({ blend, stencilFunc: gl.NOTEQUAL }, false, 0);
     }
   }
 

@@ -124,7 +124,7 @@ export function makeTarget(gl: WebGL2RenderingContext, color: WebGLTexture, dept
 /** All that drawing depends on besides programs, textures and vertices; what is left out is off. */
 export interface RasterState {
   depthTest?: boolean; depthWrite?: boolean; color?: boolean; alpha?: boolean; cull?: boolean; mirrored?: boolean;
-  blend?: 'add' | 'multiply'; stencilFunc?: number; stencilRef?: number; stencilRead?: number; stencilWrite?: number;
+  blend?: 'add' | 'multiply' | 'cover'; stencilFunc?: number; stencilRef?: number; stencilRead?: number; stencilWrite?: number;
 }
 export function apply(gl: WebGL2RenderingContext, s: RasterState): void {
   const set = (what: number, on: boolean): void => { if (on) gl.enable(what); else gl.disable(what); };
@@ -139,6 +139,7 @@ export function apply(gl: WebGL2RenderingContext, s: RasterState): void {
   set(gl.BLEND, !!s.blend);
   if (s.blend === 'add') gl.blendFuncSeparate(gl.ONE, gl.ONE, gl.ONE, gl.ZERO);
   if (s.blend === 'multiply') gl.blendFuncSeparate(gl.ZERO, gl.SRC_COLOR, gl.ZERO, gl.ONE);
+  if (s.blend === 'cover') gl.blendFuncSeparate(gl.ONE, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
   set(gl.STENCIL_TEST, s.stencilFunc !== undefined || !!s.stencilWrite);
   gl.stencilFunc(s.stencilFunc ?? gl.ALWAYS, s.stencilRef ?? 0, s.stencilRead ?? 0xff);
   gl.stencilMask(s.stencilWrite ?? 0);

@@ -73,6 +73,8 @@ export class Movers {
     const bounds = v.emptyBounds(), ranges: Range[] = [];
     for (const part of mover.mesh.parts) {
       if (part.count === 0) continue;
+      const m = this.scene.data.materials[part.material]!;
+      if (m.alphaMode === 2) m.alphaMode = 0;  // they hide what is behind; their materials are theirs alone
       const range: Range = { ...part, page: -1, bounds: v.emptyBounds() };
       for (let i = part.first; i < part.first + part.count; ++i) {
         const k = 3 * mover.mesh.indices[i]!;

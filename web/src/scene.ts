@@ -135,7 +135,9 @@ export class GpuScene {
     const parts = mesh.parts.filter((p) => p.count > 0).sort((a, b) => a.material - b.material || a.page - b.page);
     for (const part of parts) {
       const range = this.rangeOf(indices, mesh.indices.subarray(part.first, part.first + part.count), part.material, part.page);
-      (this.isTransparent(part.material) ? this.transparent : this.opaque).push(range);
+      const transparent = this.isTransparent(part.material);
+      if (transparent) this.transparent.push(range);
+      if (!transparent || isPartlyOpaque(this.data.materials[part.material]!)) this.opaque.push(range);
       v.extend(this.bounds, ...range.bounds.lower);
       v.extend(this.bounds, ...range.bounds.upper);
     }
@@ -352,4 +354,8 @@ export class GpuScene {
 
 const inverse = (x: number): number => (x > 0 ? 1 / x : 0);
 
-export const cutoffOf = (m: Material): number => (m.alphaMode === 1 ? Math.max(m.cutoff, 0) : -1);
+/** Blended, and whole in places, where it hides as opaque surfaces do: what rounds to 255 of 8 bits. */
+const opaqueAlpha = 254.5 / 255;
+export const isPartlyOpaque = (m: Material): boolean => m.alphaMode === 2 && m.alpha >= opaqueAlpha && m.transmission <= 0;
+
+export const cutoffOf = (m: Material): number => (isPartlyOpaque(m) ? opaqueAlpha : m.alphaMode === 1 ? Math.max(m.cutoff, 0) : -1);
