@@ -61,7 +61,7 @@ SkinDesc parse_skin(const JsonAt& value, std::size_t nodes, const Document& docu
 bool round_to_affine(const JsonAt& value, DMat4& m) {
   constexpr double kRounding = 1e-3;  // of a column's length: a matrix printed with four digits
   const auto length = [&](int i) { return std::hypot(m[i].x, m[i].y, m[i].z); };
-  if (m[3][3] != 1 && m[3][3] > 0) m /= m[3][3];  // homogeneous coordinates
+  if (std::abs(m[3][3] - 1) > kRounding && m[3][3] > 0) m /= m[3][3];  // homogeneous coordinates
   bool rounded = false;
   for (int i = 0; i < 4; ++i) {
     const double off = i < 3 ? std::abs(m[i][3]) : std::abs(m[3][3] - 1);

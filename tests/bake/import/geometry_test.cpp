@@ -197,12 +197,11 @@ TEST(Nodes, MatricesMustDecompose) {
   EXPECT_NEAR(rounded.scene().origin.y, 6.5, 1e-5);
   matrix = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 12, 14, 2};  // homogeneous
   EXPECT_NEAR(import(g).scene().origin.y, 6.5, 1e-9);
-  matrix = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // flat, as a scale of 0 is
+  g.add_triangle();
+  g.doc["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // flat, as a scale of 0 is
   const Imported flat = import(g);
-  EXPECT_TRUE(flat.ok()) << flat.error();
-  g.doc["nodes"][0].erase("matrix");
-  g.doc["nodes"][0]["scale"] = {1, 0, 1};
-  EXPECT_EQ(flat.scene().triangles, import(g).scene().triangles);
+  ASSERT_TRUE(flat.ok()) << flat.error();
+  EXPECT_EQ(flat.scene().triangles.size(), 1u);
 }
 
 // KHR_node_visibility: what hangs below a hidden node is hidden too.

@@ -103,6 +103,7 @@ TEST(Solids, ThinAndOpaqueAsBefore) {
   EXPECT_FALSE(material_of(import(g).scene(), 0).solid) << "it transmits nothing";
   g = with(kGlass);
   g.doc["materials"][0]["alphaMode"] = "BLEND";
+  g.doc["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.5};
   add_faces(g, 0, 6);
   EXPECT_TRUE(import(g).warned("expected opaque glass"));
 }

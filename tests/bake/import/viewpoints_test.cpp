@@ -41,9 +41,6 @@ TEST(Viewpoints, CamerasStandInSceneSpace) {
 
 TEST(Viewpoints, BrokenCamerasAndLightsAreNamed) {
   Gltf g = with_camera();
-  g.doc["cameras"][0]["perspective"]["yfov"] = 4;
-  EXPECT_NE(import(g).error().find("cameras[0].perspective.yfov"), std::string::npos);
-  g = with_camera();
   g.doc["nodes"][1]["scale"] = {0, 0, 0};
   const Imported r = import(g);
   ASSERT_TRUE(r.ok()) << r.error();
