@@ -76,6 +76,7 @@ CommandLine preview_command_line(PreviewArguments& a, std::function<Status()> ru
                       .options = output_options(a)};
   append(command.options, effect_options(a));
   std::vector<Option> baked = mover_options(a.scene.import);  // that oriel-bake takes too
+  a.scene.import.clear_sky = true;
   append(baked, light_options(a.scene.import));
   append(baked, scene_options(a.scene.import, a.reproducible));
   append(baked, {{"--threads", "Run", "Threads of rays; 0: all CPUs", number(a.threads, 0, 1024), Use::kEveryday},

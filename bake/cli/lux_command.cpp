@@ -58,6 +58,7 @@ ToolCommand lux_command(BakeSession& session) {
   const auto args = std::make_shared<LuxArguments>();
   MeasureJob& job = args->job;
   job.lux.relative_error = 0.01;
+  job.import.clear_sky = true;
   ToolCommand out{
       .name = "lux",
       .help = "Prints the illuminance at points as CSV; no lightmap, no pack",

@@ -97,6 +97,7 @@ std::vector<Option> frame_options(RenderArguments& args) {
 
 ToolCommand render_command(BakeSession& session) {
   const auto args = std::make_shared<RenderArguments>();
+  args->import.clear_sky = true;
   ToolCommand out{
       .name = "render",
       .help = "Path-traces one frame by component, with its noise: the reference that frames are compared with",

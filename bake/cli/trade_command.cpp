@@ -67,6 +67,7 @@ std::vector<Option> sweep_options(trade::TradeOptions& o) {
 
 ToolCommand trade_command(BakeSession& session) {
   const auto args = std::make_shared<TradeArguments>();
+  args->import.clear_sky = true;  // as the programs that it starts have it
   ToolCommand out{
       .name = "trade",
       .help = "Measures on the scene what methods and knobs cost and err, and shows which are best for their cost",

@@ -11,10 +11,19 @@
 
 namespace oriel {
 
+// Makes lamps, or what shines of itself, brighter.
+struct LightScale {
+  std::string names;  // which, with * and ? as in fits_pattern(); empty: all
+  double factor = 1;  // >= 0
+};
+
 struct ImportOptions {
-  int scene = -1;                      // which scene of the file; -1: its default, else the first
-  Vec3 sky{0};                         // constant sky radiance, cd/m²; not read with a sky_file
-  std::filesystem::path sky_file;      // .hdr or .exr, latitude-longitude (see SkyImage); empty: none
+  int scene = -1;                  // which scene of the file; -1: its default, else the first
+  Vec3 sky{0};                     // constant sky radiance, cd/m²; not read with a sky_file
+  std::filesystem::path sky_file;  // .hdr or .exr, latitude-longitude (see SkyImage); empty: none
+  // Without any of these: a clear sky to the file's sun (add_clear_sky). What programs do where nobody says otherwise;
+  // off here, for who builds a scene has named all of its light.
+  bool clear_sky = false;
   float sky_scale = 1;                 // cd/m² per unit of that file
   float sky_rotation_deg = 0;          // counter-clockwise seen from above
   std::optional<float> sun_angle_deg;  // angular diameter of every directional light, 0 to 180
@@ -26,6 +35,8 @@ struct ImportOptions {
   bool double_sided = false;           // every material reflects and emits on both sides, whatever the file says
   // Node (or light) name and IES file: the profile of its point or spot light.
   std::vector<std::pair<std::string, std::filesystem::path>> ies;
+  std::vector<LightScale> lamp_scales;                // by name of node or light; without names: of points and spots
+  std::vector<LightScale> emission_scales;            // by name of material
   std::uint64_t max_bytes = std::uint64_t{16} << 30;  // refuse files and allocations beyond it
   std::uint64_t most_triangles = 0;  // with all instances; of more, repeated meshes get fewer. 0: no limit
 };

@@ -7,6 +7,7 @@
 #include "bake/scene/sky.h"
 #include "formats/core/file.h"
 #include "formats/core/hash.h"
+#include "formats/core/text.h"
 
 namespace oriel {
 namespace {
@@ -115,11 +116,51 @@ Status load_profiles(const ImportOptions& options, gltf::MemoryBudget& budget, I
   return {};
 }
 
+// A name without a light or material is a typing error.
+Status none_scaled(const char* option, const LightScale& scale, const std::string& there, Context& context) {
+  if (scale.names.empty()) {
+    context.warning(fmt::format("{} has no effect: nothing of its kind shines", option));
+    return {};
+  }
+  return fail(ErrorCode::kUsage, option, "found the name \"{}\", expected one that shines: there are {}", scale.names,
+              there);
+}
+
+Status scale_lights(const ImportOptions& options, Scene& scene, Context& context) {
+  for (const LightScale& scale : options.lamp_scales) {
+    bool any = false;
+    for (Light& light : scene.lights) {
+      if (scale.names.empty() ? light.type == LightType::kDirectional
+                              : !fits_pattern(scale.names, light.name) && !fits_pattern(scale.names, light.node_path))
+        continue;
+      any = true;
+      light.intensity *= static_cast<float>(scale.factor), light.color *= static_cast<float>(scale.factor);
+    }
+    if (!any) ORIEL_TRY_VOID(none_scaled("--lamp-scale", scale, list_of_lights(scene), context));
+  }
+  for (const LightScale& scale : options.emission_scales) {
+    bool any = false;
+    std::string there;
+    for (SceneMaterial& material : scene.materials) {
+      if (max_component(material.emission) <= 0) continue;
+      there += fmt::format("{}\"{}\"", there.empty() ? "" : ", ", material.name);
+      if (!scale.names.empty() && !fits_pattern(scale.names, material.name)) continue;
+      any = true;
+      material.emission *= static_cast<float>(scale.factor);
+    }
+    if (!any) ORIEL_TRY_VOID(none_scaled("--emission-scale", scale, there.empty() ? "none" : there, context));
+  }
+  return {};
+}
+
 }  // namespace
 
 Status apply_lighting(const ImportOptions& options, gltf::MemoryBudget& budget, ImportedScene& out, Context& context) {
   ORIEL_TRY_VOID(load_sky(options, budget, out, context));
   ORIEL_TRY_VOID(load_profiles(options, budget, out, context));
+  ORIEL_TRY_VOID(scale_lights(options, out.scene, context));
+  if (options.clear_sky && !options.day.wanted && options.sky_file.empty() && options.sky == Vec3(0))
+    add_clear_sky(out.scene, context);
   if (options.day.wanted) ORIEL_TRY_VOID(add_daylight(options.day, out.scene, context));
   if (!options.sun_angle_deg) return {};
   if (!(*options.sun_angle_deg >= 0 && *options.sun_angle_deg <= 180))

@@ -34,6 +34,7 @@ enum class WarningKind {
   kUnitGuessed,    // the file's numbers are no metres
   kEyesGuessed,    // people are of another size
   kTimeOver,       // something is left out for want of time
+  kSkyAdded,       // a sky to the sun of the file
   kNoImage,        // a material whose reflections are shown without an image
 };
 struct Warning {

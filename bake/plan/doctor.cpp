@@ -36,6 +36,8 @@ constexpr std::array kImportRules{
                "export in metres, or name the unit with --unit"},
     ImportRule{WarningKind::kEyesGuessed, FindingKind::kImport, "cameras, or rooms, as people of usual size have them",
                "place a camera where eyes are, or name their height with --eye-height"},
+    ImportRule{WarningKind::kSkyAdded, FindingKind::kImport, "a sky beside the sun",
+               "--sky none leaves it out; --sky FILE.hdr or --day DATE@LAT,LON gives another"},
 };
 
 // 'surface "wall": text' as "wall" and the text.

@@ -61,6 +61,8 @@ void check_lights(const Scene& scene, const LightSet& lights, double area_m2, st
   }
   const bool sun = std::any_of(scene.lights.begin(), scene.lights.end(),
                                [](const Light& l) { return l.type == LightType::kDirectional; });
+  if (const auto outshone = find_outshone(scene, area_m2))
+    findings.push_back({FindingKind::kLightUnits, outshone->lamp, outshone->found, outshone->expected, outshone->fix});
   const double mean_lux = area_m2 > 0 ? luminance(lights.power()) / area_m2 : 0;
   const bool is_dim = !sky && !sun && mean_lux < kDimRoom_lux;
   bool lamp_named = false;

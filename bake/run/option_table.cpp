@@ -157,7 +157,7 @@ std::vector<Option> transfer_options(BakeOptions& o) {
 
 BakeOptions command_line_defaults() {
   BakeOptions o;
-  o.choose_texel = true;
+  o.choose_texel = o.import.clear_sky = true;
   o.radiosity.estimator = Estimator::kCached;
   o.radiosity.samples = 0;
   o.radiosity.error = 0.02;
@@ -169,8 +169,9 @@ BakeOptions command_line_defaults() {
 std::vector<Option> light_options(ImportOptions& import) {
   return {
       {"--sky", kLight,
-       "The sky: radiance in cd/m² all around (one value, or R,G,B), or an HDRI: a latitude-longitude .hdr or .exr "
-       "whose centre is +X and whose right is +Z, as in Blender",
+       "The sky: auto (a clear one to the file's sun, where it has one), none, radiance in cd/m² all around (one "
+       "value, or R,G,B), or an HDRI: a latitude-longitude .hdr or .exr whose centre is +X and whose right is +Z, as "
+       "in Blender",
        sky(import), Use::kEveryday},
       {"--day", kLight,
        "Sun and sky of a day and place, instead of a sky: date, degrees north and east, and where north is, degrees "
@@ -200,6 +201,13 @@ std::vector<Option> light_options(ImportOptions& import) {
        "intensity and "
        "cone, the colour stays. Nadir is the node's -Z, horizontal 0 its +X. May be repeated",
        profiles(import), Use::kRare, "ies"},
+      {"--lamp-scale", kLight,
+       "Multiplies the light of point and spot lights, or of the lights of that name (with * for any letters): 0.0015 "
+       "takes back an exporter's 683 lm/W, 0.8 is a maintenance factor. May be repeated",
+       light_scales(import.lamp_scales), Use::kRare, "lamp_scale", "oriel-bake.md#light"},
+      {"--emission-scale", kLight,
+       "Multiplies the emission of all materials, or of those of that name (with * for any letters). May be repeated",
+       light_scales(import.emission_scales), Use::kRare, "emission_scale", "oriel-bake.md#light"},
   };
 }
 

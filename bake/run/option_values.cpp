@@ -122,20 +122,24 @@ OptionValue eyes(BakeOptions& o) {
 }
 
 OptionValue sky(ImportOptions& o) {
-  return {"L|R,G,B|FILE",
+  return {"auto|none|L|R,G,B|FILE",
           [&o](const std::string& typed) -> Status {
             ORIEL_TRY(SkyChoice choice, parse_sky(typed));
             o.sky = choice.radiance;
+            o.clear_sky = choice.clear;
             o.sky_file = std::move(choice.file);
             return {};
           },
           [&o] {
             if (!o.sky_file.empty()) return o.sky_file.string();
+            if (o.sky == Vec3(0)) return std::string(o.clear_sky ? "auto" : "none");
             if (o.sky == Vec3(o.sky.r)) return fmt::format("{}", o.sky.r);
             return fmt::format("{},{},{}", o.sky.r, o.sky.g, o.sky.b);
           },
           [&o] {
-            return Json{{"sky_cd_m2", {o.sky.r, o.sky.g, o.sky.b}}, {"sky_file", o.sky_file.filename().string()}};
+            return Json{{"sky_cd_m2", {o.sky.r, o.sky.g, o.sky.b}},
+                        {"sky_file", o.sky_file.filename().string()},
+                        {"clear_sky", o.clear_sky}};
           }};
 }
 
@@ -156,6 +160,14 @@ OptionValue moves(std::vector<MoverMove>& moves) {
     for (const MoverMove& move : moves) all.push_back(text_of(move));
     return all;
   };
+  return value;
+}
+
+OptionValue light_scales(std::vector<LightScale>& scales) {
+  OptionValue value = each(scales, "F|NAME=F", parse_light_scale, [](const LightScale& scale) {
+    return fmt::format("{}{}{}", scale.names, scale.names.empty() ? "" : "=", scale.factor);
+  });
+  value.json = [get = value.get] { return Json(get()); };
   return value;
 }
 

@@ -31,6 +31,7 @@ OptionValue sky(ImportOptions& o);
 OptionValue day(ImportOptions& o);
 OptionValue hours(ImportOptions& o);
 OptionValue moves(std::vector<MoverMove>& moves);  // --move
-OptionValue profiles(ImportOptions& o);            // --ies
+OptionValue light_scales(std::vector<LightScale>& scales);
+OptionValue profiles(ImportOptions& o);  // --ies
 
 }  // namespace oriel

@@ -74,7 +74,20 @@ Result<Vec3> parse_color(const std::string& text) {
               "found '{}', expected one value or three with commas, none negative, such as 100 or 90,95,100", text);
 }
 
+Result<LightScale> parse_light_scale(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  const bool named = equals != std::string::npos;
+  LightScale scale{named ? text.substr(0, equals) : "", 0};
+  const char *at = text.data() + (named ? equals + 1 : 0), *end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(at, end, scale.factor);
+  constexpr double kMost = 1e30;  // as of a sky
+  if (equals == 0 || error != std::errc() || next != end || !(scale.factor >= 0 && scale.factor <= kMost))
+    return fail(ErrorCode::kUsage, "", "found '{}', expected a factor or NAME=FACTOR, as 683 or \"bulb*=0.02\"", text);
+  return scale;
+}
+
 Result<SkyChoice> parse_sky(const std::string& text) {
+  if (text == "auto" || text == "none") return SkyChoice{Vec3(0), {}, text == "auto"};
   std::filesystem::path file(text);
   const std::string extension = lower_case(file.extension().string());
   if (extension == ".hdr" || extension == ".exr") return SkyChoice{Vec3(0), std::move(file)};

@@ -85,10 +85,14 @@ Result<double> parse_verify(const std::string& text);
 Result<EyeOptions> parse_eye_source(const std::string& text);
 // "100" (grey) or "90,95,100" (linear Rec. 709), >= 0. Error kUsage.
 Result<Vec3> parse_color(const std::string& text);
-// What --sky takes, "0", "2000", "90,95,100" or "sky.exr", as ImportOptions::sky or ::sky_file. Error kUsage.
+// "2" or "lamp*=2". Error kUsage.
+Result<LightScale> parse_light_scale(const std::string& text);
+// What --sky takes, "auto", "none", "2000", "90,95,100" or "sky.exr", as ImportOptions::sky, ::sky_file and
+// ::clear_sky. Error kUsage.
 struct SkyChoice {
   Vec3 radiance{0};
   std::filesystem::path file;
+  bool clear = false;
 };
 Result<SkyChoice> parse_sky(const std::string& text);
 // "lamp=profile.ies": the first = divides. Error kUsage.

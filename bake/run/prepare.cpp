@@ -222,7 +222,46 @@ Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& c
   return {};
 }
 
+std::optional<Outshone> find_outshone(const Scene& scene, double area_m2) {
+  // What Blender's exporter makes of a watt of a lamp, but not of emission; and what makes its 60 W the 65 cd of a
+  // bulb.
+  constexpr double kLumenPerRadiantWatt = 683, kToBulb = 65 / (60 * kLumenPerRadiantWatt / (4 * kPiD));
+  const Light* lamp = nullptr;
+  double all_lm = 0, most_lm = 0;
+  for (const Light& light : scene.lights) {
+    const double lm = luminance(punctual_power(scene, light));
+    all_lm += lm;
+    if (lm > most_lm) lamp = &light, most_lm = lm;
+  }
+  const double paint = area_m2 > 0 ? all_lm / area_m2 / kPiD : 0;
+  const SceneMaterial* dead = nullptr;
+  bool all_dead = true;
+  for (const Surface& surface : scene.surfaces) {
+    const SceneMaterial& material = scene.materials[surface.material];
+    const double shine = luminance(material.emission);
+    if (material.unlit || !(shine > 0)) continue;
+    all_dead &= shine < paint;
+    if (shine < paint && (dead == nullptr || shine > luminance(dead->emission))) dead = &material;
+  }
+  if (dead == nullptr) return std::nullopt;
+  const double factor = paint / luminance(dead->emission);
+  return Outshone{
+      lamp->name,
+      fmt::format("lamps of {:.3g} lm, the strongest \"{}\" of {:.3g} lm, outshine the emission of \"{}\" "
+                  "{:.2g} times: white paint has {:.3g} cd/m² in their light, \"{}\" {:.3g}",
+                  all_lm, lamp->name, most_lm, dead->name, factor, paint, dead->name, luminance(dead->emission)),
+      "what shines of itself to be brighter than paint: bulbs and panels have thousands of cd/m²",
+      fmt::format("--emission-scale {}{:.3g} if an exporter multiplied lamps by {:.0f} lm/W and emission by "
+                  "nothing, or --lamp-scale {:.2g}, which makes lamps bulbs of as many watts",
+                  all_dead ? "" : fmt::format("\"{}\"=", dead->name), std::max(kLumenPerRadiantWatt, 2 * factor),
+                  kLumenPerRadiantWatt, std::min(kToBulb, 1 / (2 * factor)))};
+}
+
 void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
+  double area_m2 = 0;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) area_m2 += triangle_area(scene, t);
+  if (const auto outshone = find_outshone(scene, area_m2))
+    context.warning(fmt::format("{}; expected {}: {}", outshone->found, outshone->expected, outshone->fix));
   if (lights.empty() && luminance(scene.sky) <= 0)
     context.warning("the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it is black");
 }

@@ -55,6 +55,12 @@ MaterialOptions material_options(const BakeOptions& options);
 bool choose_directional(const Scene& scene, Directional wanted, std::vector<Warning>& omissions);
 
 // Warns where a scene has no light at all.
+// Something that shines of itself, darker than white paint is on the mean under the lamps' direct light: it looks dead.
+struct Outshone {
+  std::string lamp, found, expected, fix;  // lamp: the strongest point or spot light
+};
+std::optional<Outshone> find_outshone(const Scene& scene, double area_m2);
+// Tells of it, and of a scene without light.
 void warn_about_light(const Scene& scene, const LightSet& lights, Context& context);
 
 }  // namespace oriel

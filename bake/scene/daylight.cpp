@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "bake/scene/sky.h"
+#include "formats/core/color.h"
 #include "formats/core/daylight.h"
 #include "formats/query/day_hours.h"
 
@@ -11,7 +12,12 @@ namespace {
 
 constexpr double kRadians = kPiD / 180;
 constexpr float kSunRadius_rad = 0.2665f * (kPi / 180);
-constexpr std::uint32_t kSkyRows = 256;       // 0.7°: but for the sun's own disk a sky changes over ten degrees
+constexpr std::uint32_t kSkyRows = 256;  // 0.7°: but for the sun's own disk a sky changes over ten degrees
+constexpr std::uint32_t kColumns = 2 * kSkyRows;
+// What the light of sunrise sheds on level ground under a clear sky, lux (Schlyter 1997, "Radiometry and photometry in
+// astronomy"): a directional light below it is no sun, but a fill light or a moon.
+constexpr double kDimmestSun_lux = 400;
+constexpr int kMeanDistanceDay = 94;          // 4 April: the earth is as far from the sun as on the mean (Meeus 1998)
 constexpr double kShortestStep_h = 2.0 / 60;  // hours are named by the minute
 
 // The whole text.
@@ -71,24 +77,35 @@ Vec3 direction_of_texel(std::uint32_t x, std::uint32_t y) {
   return Vec3(DVec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)));
 }
 
+// Of each texel, cd/m².
+std::vector<double> sky_of(const Hour& hour) {
+  std::vector<double> radiances;
+  for (std::uint32_t y = 0; y < kSkyRows; ++y)
+    for (std::uint32_t x = 0; x < kColumns; ++x) {
+      const DVec3 direction(direction_of_texel(x, y));
+      radiances.push_back(direction.y > 0 ? hour.zenith_cd_m2 * hour.sky.luminance(direction) : hour.ground_cd_m2);
+    }
+  return radiances;
+}
+
+SkyImage black_sky() {
+  return {kColumns, kSkyRows, std::vector<Vec3>(std::size_t{kColumns} * kSkyRows, Vec3(0)), 0};
+}
+
 // The image of all hours together, each over their number, and what of it is whose.
 void add_skies(std::vector<Hour>& hours, std::size_t lit, Scene& scene) {
-  constexpr std::uint32_t kColumns = 2 * kSkyRows;
-  scene.sky_image = {kColumns, kSkyRows, std::vector<Vec3>(std::size_t{kColumns} * kSkyRows, Vec3(0)), 0};
+  scene.sky_image = black_sky();
   scene.sky_parts.luminance.assign(scene.sky_image.texels.size() * lit, 0);
   SkyImage alone = scene.sky_image;
   for (Hour& hour : hours) {
     if (hour.told.group == kNight) continue;
-    for (std::uint32_t y = 0; y < kSkyRows; ++y)
-      for (std::uint32_t x = 0; x < kColumns; ++x) {
-        const DVec3 direction(direction_of_texel(x, y));
-        const double radiance = direction.y > 0 ? hour.zenith_cd_m2 * hour.sky.luminance(direction) : hour.ground_cd_m2;
-        const std::size_t texel = std::size_t{y} * kColumns + x;
-        const auto share = static_cast<float>(radiance / static_cast<double>(lit));
-        alone.texels[texel] = Vec3(static_cast<float>(radiance));
-        scene.sky_parts.luminance[texel * lit + hour.told.group] = share;
-        scene.sky_image.texels[texel] += Vec3(share);
-      }
+    const std::vector<double> radiances = sky_of(hour);
+    for (std::size_t texel = 0; texel < radiances.size(); ++texel) {
+      const auto share = static_cast<float>(radiances[texel] / static_cast<double>(lit));
+      alone.texels[texel] = Vec3(static_cast<float>(radiances[texel]));
+      scene.sky_parts.luminance[texel * lit + hour.told.group] = share;
+      scene.sky_image.texels[texel] += Vec3(share);
+    }
     hour.told.sky = sky_mean(alone);
     scene.sky_parts.groups.push_back(hour.told.group);
   }
@@ -191,6 +208,37 @@ std::string hours_text(const DayOptions& o) {
     text +=
         fmt::format("{}{}", o.utc_offset_h < 0 ? '-' : '+', clock_text(static_cast<float>(std::abs(o.utc_offset_h))));
   return text;
+}
+
+void add_clear_sky(Scene& scene, Context& context) {
+  const Light* sun = nullptr;
+  const auto lux = [](const Light& light) { return luminance(light.intensity); };
+  for (const Light& light : scene.lights)
+    if (light.type == LightType::kDirectional && light.direction.y < 0 && lux(light) >= kDimmestSun_lux &&
+        (sun == nullptr || lux(light) > lux(*sun)))
+      sun = &light;
+  if (sun == nullptr) return;
+  const DVec3 to_sun = -glm::normalize(DVec3(sun->direction));
+  const double elevation_deg = std::asin(std::min(1.0, to_sun.y)) / kRadians;
+  const DayOptions day;
+  const MeanDaylight light = mean_daylight(day.sky_type, kMeanDistanceDay, elevation_deg);
+  const double noon_lux = mean_daylight(day.sky_type, kMeanDistanceDay, 90).sun_lux;
+  // At the horizon the model's sun is black.
+  const double most = std::max(1.0, lux(*sun) / noon_lux);
+  const double sky_lux = light.sky_lux * std::min(most, lux(*sun) / std::max(light.sun_lux, 1e-9 * noon_lux));
+  Hour hour;
+  hour.sky = {day.sky_type, to_sun};
+  hour.zenith_cd_m2 = sky_lux / hour.sky.illuminance();
+  hour.ground_cd_m2 = day.ground / kPiD * (sky_lux + lux(*sun) * to_sun.y);
+  scene.sky_image = black_sky();
+  const std::vector<double> radiances = sky_of(hour);
+  for (std::size_t texel = 0; texel < radiances.size(); ++texel)
+    scene.sky_image.texels[texel] = Vec3(static_cast<float>(radiances[texel]));
+  scene.sky = sky_mean(scene.sky_image);
+  context.warning({fmt::format("sky: the sun \"{}\" of {:.3g} lux stands {:.0f}° high and the file has no sky: a clear "
+                               "one of that height is added, {:.3g} lux (--sky none leaves it out)",
+                               sun->name, lux(*sun), elevation_deg, sky_lux),
+                   WarningKind::kSkyAdded});
 }
 
 Status add_daylight(const DayOptions& options, Scene& scene, Context& context) {

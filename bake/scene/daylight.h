@@ -30,6 +30,12 @@ Status parse_hours(const std::string& text, DayOptions& options);
 std::string day_text(const DayOptions& options);  // as those take them; "" where no day is wanted
 std::string hours_text(const DayOptions& options);
 
+// A clear sky (type 12, CIE standard) to the strongest directional light that shines down with 400 lux at least, which
+// is what sunrise sheds, and level ground below it. Where there is such a sun it is told, with how to leave it out.
+// Illuminance: mean_daylight() of that height, times what the file's sun has over the model's. So sky and sun stand in
+// nature's proportion; but a sun near the horizon as bright as at noon gets the sky of its height alone.
+void add_clear_sky(Scene& scene, Context& context);
+
 // Fills scene.day, and puts in the mean of its hours: of each the sun (a directional light, 0.533° across) and the sky,
 // over the number of hours with a sun. Directional lights of the file are taken out, with a warning. Hours without a
 // sun are told. DayHour::group counts hours with a sun from 0. Errors kUsage: no hour with a sun; more than

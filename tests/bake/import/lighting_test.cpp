@@ -135,6 +135,87 @@ TEST(Lighting, TheSunHasASize) {
   EXPECT_NE(import(g).error().find("angular_diameter_deg"), std::string::npos);
 }
 
+// Of the sun alone, so high and so bright.
+Gltf with_sun(double elevation_deg, double lux) {
+  Gltf g = with_lights();
+  const double half = elevation_deg * kPiD / 360;  // about +X: -Z goes down
+  g.doc["nodes"][2]["rotation"] = {-std::sin(half), 0, 0, std::cos(half)};
+  g.doc["extensions"]["KHR_lights_punctual"]["lights"][1]["intensity"] = lux;
+  return g;
+}
+
+// On level ground, lux.
+double sky_lux(const Scene& scene) {
+  constexpr int kSteps = 200;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int k = 0; k < kSteps; ++k) {
+      const double up = std::sqrt((i + 0.5) / kSteps), out = std::sqrt(1 - up * up), phi = 2 * kPiD * k / kSteps;
+      sum += sky_radiance(scene, Vec3(DVec3(out * std::cos(phi), up, out * std::sin(phi)))).g;
+    }
+  return kPiD * sum / (kSteps * kSteps);
+}
+
+TEST(ClearSky, StandsToTheFilesSunAsInNature) {
+  ImportOptions options;
+  options.clear_sky = true;
+  // Gillette et al. 1984, clear: sun 127.5 exp(-0.21 / sin h) klx, sky 0.8 + 15.5 √sin h klx.
+  for (const auto& [height, lux, expected] : {std::tuple{30.0, 83770.0, 11760.0},
+                                              {30.0, 41885.0, 5880.0},
+                                              {90.0, 103350.0 * 3, 16300.0 * 3},
+                                              {3.0, 1e5, 800 + 15500 * std::sqrt(std::sin(3 * kPiD / 180))}}) {
+    const Imported r = import(with_sun(height, lux), options);
+    ASSERT_TRUE(r.ok()) << r.error();
+    EXPECT_NEAR(sky_lux(r.scene()) / expected, 1, 0.02) << height << "°, " << lux << " lux";
+    const double ground = 0.2 / kPiD * (expected + lux * std::sin(height * kPiD / 180));
+    EXPECT_NEAR(sky_radiance(r.scene(), Vec3(0, -1, 0)).g / ground, 1, 0.01);
+    EXPECT_TRUE(r.warned("--sky none")) << "told, with what leaves it out";
+    // Brightest about the sun, which stands towards +Z.
+    if (height == 30) {
+      EXPECT_GT(sky_radiance(r.scene(), glm::normalize(Vec3(0, 0.5f, 0.86f))).g,
+                3 * sky_radiance(r.scene(), glm::normalize(Vec3(0, 0.5f, -0.86f))).g);
+    }
+  }
+}
+
+TEST(ClearSky, IsThereForASunByDayAlone) {
+  const auto has_sky = [](const Gltf& g, const ImportOptions& options) {
+    const Imported r = import(g, options);
+    EXPECT_TRUE(r.ok()) << r.error();
+    return r.scene().sky != Vec3(0);
+  };
+  ImportOptions options;
+  EXPECT_FALSE(has_sky(with_sun(30, 5e4), options)) << "who calls the library says what shines";
+  options.clear_sky = true;
+  EXPECT_TRUE(has_sky(with_sun(30, 5e4), options));
+  EXPECT_TRUE(has_sky(with_sun(30, 683), options)) << "1 W/m² as Blender writes it";
+  EXPECT_FALSE(has_sky(with_sun(-30, 5e4), options)) << "below the horizon";
+  EXPECT_FALSE(has_sky(with_sun(30, 300), options)) << "a fill light";
+  EXPECT_FALSE(has_sky(with_lights(), options)) << "level, 1 lux";
+  options.sky = Vec3(7);
+  EXPECT_EQ(import(with_sun(30, 5e4), options).scene().sky, Vec3(7)) << "as --sky has it";
+}
+
+TEST(LightScales, AreByNameAndTellOfNamesThatAreNot) {
+  Gltf g = with_lights();
+  json& glow = g.material();
+  glow["name"] = "bulb glass", glow["emissiveFactor"] = {1, 1, 1};
+  g.material()["name"] = "wall";
+  ImportOptions options;
+  options.lamp_scales = {{"", 0.5}, {"la*", 3}, {"sun", 2}};
+  options.emission_scales = {{"bulb*", 683}};
+  const Imported r = import(g, options);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_EQ(r.scene().lights[0].intensity, Vec3(150, 75, 0)) << "half, three times that";
+  EXPECT_EQ(r.scene().lights[1].intensity, Vec3(2));
+  EXPECT_EQ(r.scene().lights[2].intensity, Vec3(1));
+  EXPECT_EQ(r.scene().materials[0].emission, Vec3(683));
+  options.emission_scales = {{"wall", 2}};
+  EXPECT_NE(import(g, options).error().find("there are \"bulb glass\""), std::string::npos);
+  options.emission_scales.clear(), options.lamp_scales = {{"lampe", 2}};
+  EXPECT_NE(import(g, options).error().find("there are \"lamp\""), std::string::npos);
+}
+
 // 4 × 2 texels, RGBE: (1, 0.5, 0.25) above, black below.
 std::string tiny_hdr() {
   std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";

@@ -135,6 +135,34 @@ TEST(Doctor, LightsThatLookLikeWatts) {
   EXPECT_TRUE(lights_of({sun(100000)}).empty());
 }
 
+// Blender's exporter: a 60 W point of 683 lm/W, a bulb of emission 12.
+TEST(Doctor, LampsThatOutshineWhatShinesOfItself) {
+  const auto room = [](float lamp_scale, float emission_scale) {
+    SceneParts parts;
+    parts.box("room", parts.diffuse(Vec3(0.5f)), Vec3(0), Vec3(4, 3, 4), true);  // 80 m²
+    SceneMaterial glow;
+    glow.name = "disc";
+    glow.emission = Vec3(12 * emission_scale);
+    parts.quad("bulb", parts.add(glow), {2, 2.5f, 2}, {0.1f, 0, 0}, {0, 0, 0.1f});
+    Scene scene = parts.finish();
+    scene.lights = {lamp(60 * 683 / (4 * kPi) * lamp_scale)};
+    std::vector<Finding> findings;
+    check_lights(scene, LightSet(scene), 80, findings);
+    return findings;
+  };
+  const auto found = room(1, 1);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, FindingKind::kLightUnits);
+  EXPECT_EQ(found[0].object, "bulb");
+  // 41 000 lm on 80 m² are 512 lux: paint of 163 cd/m², 13.6 times 12.
+  for (const char* part : {"\"disc\" 14 times", "4.1e+04 lm", "163 cd/m²"})
+    EXPECT_NE(found[0].found.find(part), std::string::npos) << found[0].found;
+  for (const char* part : {"--emission-scale 683", "--lamp-scale 0.02"})
+    EXPECT_NE(found[0].fix.find(part), std::string::npos) << found[0].fix;
+  EXPECT_TRUE(room(1, 683).empty()) << "mended";
+  EXPECT_TRUE(room(0.02f, 1).empty()) << "likewise";
+}
+
 TEST(Doctor, NoLightAtAll) {
   const auto found = lights_of({});
   ASSERT_EQ(found.size(), 1u);

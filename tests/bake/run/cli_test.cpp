@@ -363,6 +363,11 @@ TEST(Quantities, ParseAndRefuse) {
   for (const char* bad : {"", "1,2", "1,2,3,4", "-1", "a", "1,,2"}) EXPECT_FALSE(parse_color(bad)) << bad;
   EXPECT_EQ(parse_sky("2000")->radiance, Vec3(2000));
   EXPECT_EQ(parse_sky("skies/Noon.EXR")->file, "skies/Noon.EXR");
+  EXPECT_TRUE(parse_sky("auto")->clear);
+  EXPECT_FALSE(parse_sky("none")->clear);
+  EXPECT_EQ(parse_light_scale("683")->factor, 683);
+  EXPECT_EQ(parse_light_scale("a=b*=0.5")->names, "a=b*");
+  for (const char* bad : {"", "lamp", "=2", "lamp=", "-1", "nan", "2x"}) EXPECT_FALSE(parse_light_scale(bad)) << bad;
   for (const char* bad : {"", "sky.png", "-1", "a"}) EXPECT_FALSE(parse_sky(bad)) << bad;
   EXPECT_EQ(parse_ies_option("a=b=y.ies")->first, "a=b");
   EXPECT_EQ(parse_ies_option("a=b=y.ies")->second, "y.ies");
