@@ -173,6 +173,14 @@ bool PreparedScene::wants_light_field() const {
 std::optional<double> guessed_unit(const Accel& accel, double unit_m, Context& context) {
   const auto guess = guess_unit(accel);
   if (!guess) return std::nullopt;
+  if (guess->metres == 1) {
+    context.warning(
+        {fmt::format("the scene's rooms are typically {:.3g} m high, as a storey is in feet, and no camera tells: they "
+                     "stay metres; --unit ft takes the file's numbers as feet, --unit m says that they are metres",
+                     guess->room_height * unit_m),
+         WarningKind::kUnitGuessed});
+    return std::nullopt;
+  }
   context.warning(
       {fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
                    "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",

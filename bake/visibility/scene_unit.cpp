@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
@@ -16,6 +17,9 @@ constexpr double kRooms = 0.05;                    // of them in rooms of any he
 constexpr double kWidest = 20;                     // a room is no wider than that many of its heights
 constexpr double kUsualFrom = 1.2, kUsualTo = 40;  // medians that are odd, but may be metres
 constexpr double kNobodys = 1000;                  // m: no room is that high
+constexpr double kUsual = 2.7, kStorey = 6;        // m: height of a storey, and of the highest but halls
+constexpr double kFoot = 0.3048;
+constexpr double kUnits[] = {0.001, 0.01, 0.0254, kFoot, 100, 1000};  // m: mm, cm, in; cm, mm made metres twice
 
 // Points are drawn in three ways, for no single one is fair to all scenes: evenly over surfaces (a room of a hundred
 // surfaces beside a ground plane of one), over triangles, and over square metres.
@@ -52,19 +56,37 @@ class Probe {
       return {.floor = start, .open = towards > 0 && walls_reach(kLow) && !walls_reach(kHigh)};
     }
     const Vec3 end = start + other.distance * way, middle = 0.5f * (start + end);
-    const bool faces = other.front || scene_.material_of(other.triangle).double_sided;
-    return {other.distance, towards > 0 ? start : end, between_walls(middle, other.distance), faces};
+    const Walls walls = walls_around(middle, other.distance);
+    return {.height = other.distance,
+            .floor = towards > 0 ? start : end,
+            .room = walls.count >= 3 && !walls.of_body,
+            .faces = towards * slope > 0 && other.front && !walls.of_body};
   }
 
  private:
-  // Whether there are walls on three of four sides, no further away than rooms of that height are wide.
-  bool between_walls(const Vec3& from, double height) const {
+  struct Walls {
+    int count = 0;         // of four sides, no further away than rooms of that height are wide
+    bool of_body = false;  // seen from within, as a board's; a box on another has fronts above and below
+  };
+
+  // A box that holds most of the scene is a room, though modelled as a body.
+  Walls walls_around(const Vec3& from, double height) const {
     const auto reach = static_cast<float>(kWidest * height);
-    int walls = 0;
-    for (const Vec3& side : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
-      walls += bool(accel_.intersect({from, side, reach}));
-    return walls >= 3;
+    Walls walls;
+    int behind = 0;
+    Vec3 width{0};
+    for (const Vec3& side : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
+      const Hit wall = accel_.intersect({from, side, reach});
+      if (!wall) continue;
+      ++walls.count, behind += !wall.front;
+      width += wall.distance * glm::abs(side);
+    }
+    const Vec3 extent = scene_.upper - scene_.lower;
+    walls.of_body = 2 * behind > walls.count && (2 * width.x < extent.x || 2 * width.z < extent.z);
+    return walls;
   }
+
+  bool between_walls(const Vec3& from, double height) const { return walls_around(from, height).count >= 3; }
 
   std::uint32_t pick(Kind kind, const Vec2& u) const {
     const auto index = [](float x, std::size_t count) {
@@ -101,6 +123,17 @@ double typical_height(std::vector<double> heights) {
   return *middle;
 }
 
+// The unit in which rooms of that height are likest to a storey. A whole scene smaller than a metre may have been
+// scaled twice; a larger one with low rooms is a cupboard.
+double likeliest_unit(double height, double extent) {
+  double best = 1, least = std::fabs(std::log(height / kUsual));
+  for (const double unit : kUnits) {
+    const double off = std::fabs(std::log(unit * height / kUsual));
+    if (unit * height >= kLow && off < least && (unit < 1 || extent < 1)) best = unit, least = off;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<Vec3> roofed_places(const Accel& accel) {
@@ -124,24 +157,32 @@ std::optional<double> typical_room_height(const Accel& accel) {
 
 std::optional<UnitGuess> guess_unit(const Accel& accel) {
   const Probe probe(accel);
-  std::vector<double> heights;       // of rooms
-  bool rooms = false, fits = false;  // fits: some rooms are for people, if these are metres
+  std::vector<double> heights;  // of rooms
+  // Some places are for people, if these are metres: of any height, and storeys; shelves in centimetres are as halls.
+  bool rooms = false, fits = false, storeys = false;
   for (const Kind kind : {kBySurface, kByTriangle, kByArea}) {
-    std::uint32_t people = 0, here = 0;
+    std::uint32_t people = 0, low = 0, here = 0;
     for (std::uint32_t k = 0; k < kPoints; ++k) {
       const Probe::Found found = probe.find(kind, k);
-      people += (fits_people(found.height) && found.faces) || found.open;
+      const bool place = (fits_people(found.height) && found.faces) || found.open;
+      people += place, low += place && found.height <= kStorey;
       if (found.room) heights.push_back(found.height), ++here;
     }
     fits = fits || people >= kFew * kPoints;
+    storeys = storeys || low >= kFew * kPoints;
     rooms = rooms || here >= kRooms * kPoints;
   }
   if (!rooms) return std::nullopt;
+  const Vec3 extent = accel.scene().upper - accel.scene().lower;
   const double height = typical_height(std::move(heights));
-  if ((height >= kUsualFrom && height <= kUsualTo) || (fits && height < kNobodys)) return std::nullopt;
-  const double power = std::ceil(std::log10(kLow / height));
-  if (power == 0) return std::nullopt;
-  return UnitGuess{std::pow(10.0, power), height};
+  const double unit = likeliest_unit(height, std::max({extent.x, extent.y, extent.z}));
+  if (height >= kUsualFrom && height <= kUsualTo) {
+    const bool feet = height * kFoot >= kLow && height * kFoot <= kStorey / 1.5 && accel.scene().cameras.empty();
+    return feet ? std::optional(UnitGuess{1, height}) : std::nullopt;
+  }
+  const bool as_storeys = unit < 1 && unit * height <= kStorey;
+  if ((as_storeys ? storeys : fits) && height < kNobodys) return std::nullopt;
+  return unit == 1 ? std::nullopt : std::optional(UnitGuess{unit, height});
 }
 
 }  // namespace oriel

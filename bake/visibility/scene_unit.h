@@ -9,15 +9,16 @@
 namespace oriel {
 
 struct UnitGuess {
-  double metres = 1;       // that one unit of the file is likely to be: a power of ten
+  double metres = 1;       // that one unit of the file is likely to be; 1: these are metres, if they are no feet
   double room_height = 0;  // typical height of its rooms, in units: the median, weighted by its square
 };
 
-// Looks for places that a person fits into: floors with something 1.9 to 30 m overhead that shows its front (boards
-// from within do not), ceilings over one, and floors between walls as high as that with nothing overhead, for modellers
-// leave ceilings out to look in. Where there are hardly any, but rooms all the same (something overhead, and walls on
-// three of four sides), or these are a kilometre high, the unit is the power of ten that makes them 2.7 m high at the
-// median. Nothing where the numbers can be metres or no room tells. The same rooms in any unit give the same rooms.
+// Looks for places that a person fits into: floors with something 1.9 to 30 m overhead that shows its front, ceilings
+// over one, and floors between walls as high as that with nothing overhead, for modellers leave ceilings out to look
+// in. Where there are hardly any, but rooms all the same (something overhead, and walls on three of four sides), or
+// these are a kilometre high, the unit is that in which they are likest to 2.7 m high at the median. Boards, and boxes
+// that stand on others, are no rooms from within. Rooms of 8.5 without a camera may be feet: that is told, with metres.
+// Nothing where the numbers can be metres or no room tells.
 std::optional<UnitGuess> guess_unit(const Accel& accel);
 
 // Of the rooms that points of surfaces lie in, each weighted as in guess_unit(), m; nothing without a room.

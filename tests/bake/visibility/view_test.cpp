@@ -105,7 +105,7 @@ TEST(SceneUnit, BoardsAreNoRooms) {
 TEST(SceneUnit, MetresStay) {
   EXPECT_FALSE(guess_unit(accel_of(unit_room(1))));
   EXPECT_FALSE(guess_unit(accel_of(unit_room(1, true))));  // a wide plane around it tells nothing
-  EXPECT_FALSE(guess_unit(accel_of(unit_room(3))));        // a hall
+  EXPECT_FALSE(guess_unit(accel_of(unit_room(5))));        // a hall
   EXPECT_FALSE(guess_unit(accel_of(pavilion(1000, true))));
 }
 
@@ -123,6 +123,62 @@ TEST(SceneUnit, RoomsWithoutCeilingsKeepMetres) {
   for (const float x : {1.0f, 2.95f})
     for (const float z : {1.0f, 2.95f}) parts.box("leg", m, Vec3(x, 0, z), Vec3(x + 0.05f, 0.38f, z + 0.05f));
   EXPECT_FALSE(guess_unit(accel_of(parts.finish())));
+}
+
+// A room with a chair of boxes that touch, a lamp under the ceiling, and a shelf of boards 0.25 m apart.
+Scene chair_room(float unit, bool double_sided) {
+  SceneParts parts;
+  const std::uint32_t m = parts.diffuse(Vec3(0.5f));
+  const auto box = [&](Vec3 low, Vec3 high, bool inward = false) {
+    parts.box("box", m, unit * low, unit * high, inward);
+  };
+  box({0, 0, 0}, {4.2f, 2.6f, 3.6f}, true);
+  box({1.4f, 0.42f, 2}, {1.85f, 0.45f, 2.4f});
+  box({1.4f, 0.45f, 2.37f}, {1.85f, 0.9f, 2.4f});
+  for (const float x : {1.4f, 1.81f})
+    for (const float z : {2.0f, 2.36f}) box({x, 0, z}, {x + 0.04f, 0.42f, z + 0.04f});
+  for (int i = 0; i < 6; ++i) {
+    const float y = 0.25f * static_cast<float>(i);
+    box({3, y, 0}, {4, y + 0.02f, 0.3f});
+    box({3, y + 0.02f, 0}, {3.02f, y + 0.25f, 0.3f}), box({3.98f, y + 0.02f, 0}, {4, y + 0.25f, 0.3f});
+  }
+  Scene scene = parts.finish();
+  for (auto& material : scene.materials) material.double_sided = double_sided;
+  return scene;
+}
+
+TEST(SceneUnit, TouchingBoxesAreNoRooms) {
+  for (const bool double_sided : {false, true})
+    for (const double metres : {0.001, 0.01, 0.0254}) {
+      const auto guess = guess_unit(accel_of(chair_room(static_cast<float>(1 / metres), double_sided)));
+      ASSERT_TRUE(guess) << metres << double_sided;
+      EXPECT_DOUBLE_EQ(guess->metres, metres) << double_sided;
+    }
+}
+
+TEST(SceneUnit, BoxesOnAFloorKeepMetres) {
+  for (const bool double_sided : {false, true}) {
+    SceneParts parts;
+    const std::uint32_t m = parts.diffuse(Vec3(0.5f));
+    parts.quad("floor", m, {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+    parts.box("low", m, {0, 0, -0.4f}, {1, 0.4f, 0.4f});
+    parts.box("high", m, {0, 0.4f, -0.4f}, {0.3f, 1, 0.4f});
+    Scene scene = parts.finish();
+    scene.materials[m].double_sided = double_sided;
+    EXPECT_FALSE(guess_unit(accel_of(scene))) << double_sided;
+    EXPECT_FALSE(guess_unit(accel_of(chair_room(1, double_sided)))) << double_sided;
+  }
+}
+
+// Rooms 8.5 high may be halls: without a camera that is said, and they stay metres.
+TEST(SceneUnit, FeetAreSaid) {
+  Scene scene = chair_room(1 / 0.3048f, false);
+  const auto guess = guess_unit(accel_of(scene));
+  ASSERT_TRUE(guess);
+  EXPECT_EQ(guess->metres, 1);
+  EXPECT_NEAR(guess->room_height, 2.6 / 0.3048, 0.1);
+  scene.cameras = {Camera{}};
+  EXPECT_FALSE(guess_unit(accel_of(scene)));
 }
 
 TEST(SceneUnit, ThingsWithoutRoomsTellNothing) {
