@@ -93,10 +93,9 @@ Status place_viewpoints(const PosedNodes& nodes, std::span<const Animation> anim
       light.group_mark = names.light_group(node_pose.node);
       light.position = pose.eye;
       light.direction = pose.forward;
-      light.up = pose.up;
       light.right = glm::cross(pose.forward, pose.up);
-      if (glm::determinant(DMat3(node_pose.world_from_node)) < 0)
-        light.right = -light.right;  // mirrored as its node is
+      light.mirrored = glm::determinant(DMat3(node_pose.world_from_node)) < 0;
+      if (light.mirrored) light.right = -light.right;
       if (node.angular_radius_rad >= 0) light.angular_radius_rad = node.angular_radius_rad;
       scene.lights.push_back(std::move(light));
     }

@@ -42,7 +42,7 @@ void fields(Archive& archive, const LightsOf& of) {
     add_slot(archive, s, m.emission_texture);
   }
   for (const Light& light : s.lights)
-    archive(light.type, light.position, light.direction, light.right, light.up, light.color, light.intensity,
+    archive(light.type, light.position, light.direction, light.right, light.mirrored, light.color, light.intensity,
             light.inner_cone_rad, light.outer_cone_rad, light.angular_radius_rad, light.profile);
   for (const LightProfile& profile : s.profiles) archive(profile.vertical_deg, profile.horizontal_deg, profile.candela);
   // Whose light it is.

@@ -117,7 +117,7 @@ struct Light {
   Vec3 position{0};          // scene space
   Vec3 direction{0, 0, -1};  // unit, the way the light travels (spot, directional)
   Vec3 right{1, 0, 0};       // unit, normal to direction: node +X, horizontal 0 of a profile
-  Vec3 up{0, 1, 0};          // unit, normal to both: node +Y, horizontal 90
+  bool mirrored = false;     // by its node: horizontal 90 of a profile is direction x right, not right x direction
   Vec3 color{1};             // linear
   Vec3 intensity{0};         // colour * intensity: cd (point, spot) or lux on a facing plane (directional)
   float inner_cone_rad = 0, outer_cone_rad = 0.7853982f;  // spot: half angles

@@ -87,7 +87,7 @@ Vec3 punctual_intensity(const Scene& scene, const Light& light, const Vec3& dire
   if (light.profile < 0)
     return light.type == LightType::kSpot ? light.intensity * spot_falloff(light, direction) : light.intensity;
   const float z = glm::dot(light.direction, direction), x = glm::dot(light.right, direction);
-  const float y = glm::dot(light.up, direction);
+  const float y = glm::dot(glm::cross(light.right, light.direction), direction) * (light.mirrored ? -1.0f : 1.0f);
   constexpr float kDegrees = 180 / kPi;
   return light.color * profile_candela(scene.profiles[static_cast<std::size_t>(light.profile)],
                                        std::atan2(std::hypot(x, y), z) * kDegrees, std::atan2(y, x) * kDegrees);

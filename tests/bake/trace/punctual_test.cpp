@@ -77,9 +77,10 @@ TEST(Profile, AnglesFollowTheNode) {
   EXPECT_NEAR(punctual_intensity(scene, light, {0, -s, -0.5f}).g, 0, 0.01);
   EXPECT_NEAR(punctual_intensity(scene, light, {s, 0, -0.5f}).g, 0, 0.01);
   light.direction = {0, -1, 0};
-  light.right = {0, 0, 1};
-  light.up = {1, 0, 0};
+  light.right = {0, 0, 1};  // node +Y = right × direction = +X
   EXPECT_NEAR(punctual_intensity(scene, light, {s, -0.5f, 0}).g, 100, 0.01);
+  light.mirrored = true;
+  EXPECT_NEAR(punctual_intensity(scene, light, {-s, -0.5f, 0}).g, 100, 0.01);
 }
 
 TEST(Profile, SymmetriesUnfold) {
@@ -149,7 +150,7 @@ TEST(Ies, RangesOfAnglesAreCompleted) {
 // An EULUMDAT file of four planes, gamma 0 and 90: intensities per 1000 lm of a lamp of 2000 lm.
 std::string eulumdat(int symmetry, const std::string& intensities) {
   std::string text = "Maker\r\n1\r\n" + std::to_string(symmetry) + "\r\n4\r\n90\r\n2\r\n90\r\n";
-  for (int i = 0; i < 16; ++i) text += "0\r\n";
+  for (int i = 0; i < 15; ++i) text += "0\r\n";
   text += "100\r\n1,0\r\n0\r\n1\r\n1\r\nLED\r\n2000\r\n3000\r\n80\r\n20\r\n";
   for (int i = 0; i < 10; ++i) text += "0.5\r\n";
   return text + "0\r\n90\r\n180\r\n270\r\n0\r\n90\r\n" + intensities;
