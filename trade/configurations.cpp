@@ -107,11 +107,10 @@ class Planner {
 
   void movers() {
     if (!facts_.movers) {
-      skip("sh bands, transfer, mover lights, shade", "nothing moves");
+      skip("sh bands, mover lights, shade", "nothing moves");
       return;
     }
     for (const std::string& bands : either({"3"}, {"2", "3", "4"})) add("sh bands", bands, {{"--sh-bands", bands}}, {});
-    add("transfer", "unshadowed", {{"--transfer", "unshadowed"}}, {});
     add("mover lights", "harmonics", {}, {{"--mover-lights", "harmonics"}});
     if (!quick_) add("mover lights", "unshadowed", {}, {{"--mover-lights", "unshadowed"}});
     for (const std::string& lights : either({"0"}, {"0", "32", "512"})) add("shade", lights, {}, {{"--shade", lights}});

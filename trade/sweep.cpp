@@ -79,8 +79,8 @@ class Sweep {
   // A first bake, as quick as can be, tells what the scene has.
   Status survey_scene() {
     constexpr std::size_t kQuickCameras = 2, kCameras = 4;
-    const Settings settings{{"--texel", "50cm"},        {"--samples", "16"}, {"--views", "1"},
-                            {"--map-resolution", "16"}, {"--sh-bands", "2"}, {"--transfer", "unshadowed"}};
+    const Settings settings{
+        {"--texel", "50cm"}, {"--samples", "16"}, {"--views", "1"}, {"--map-resolution", "16"}, {"--sh-bands", "2"}};
     const std::string key = bake_key(settings, o_.seed, "");
     ORIEL_TRY(const Measures known,
               units_.once("survey", "what the scene has", key, [&] { return bake(key, settings, o_.seed, ""); }));

@@ -19,7 +19,6 @@ using gltf::LoadedMesh;
 using gltf::TriangleMesh;
 
 constexpr double kLargestScene = 1e9, kSmallestScene = 1e-9;  // metres
-constexpr std::uint64_t kFarTooMany = 3;                      // times the triangles for which there is time
 constexpr double kWarnShare = 0.01;                           // of corners with a normal on the wrong side
 
 struct Instance {
@@ -289,7 +288,7 @@ Status limit_triangles(const Document& document, std::uint64_t most, Context& co
     use.second = use.first > 1 ? &simple.emplace_back(simplified(*mesh, share)) : mesh;
     left += use.first * triangles_of(*use.second);
   }
-  if (left > kFarTooMany * most)
+  if (left > 3 * most)  // not only a little late
     return invalid(
         document.file,
         "found {} triangles with all instances; reading them alone takes longer than --time, which is enough "

@@ -13,11 +13,6 @@ const char* no_sky_file(const BakeOptions& o, const IdleFacts&) {
   return o.import.sky_file.empty() ? "--sky names no file" : nullptr;
 }
 
-const char* no_movers(const BakeOptions& o, const IdleFacts& facts) {
-  if (!o.with_transfer) return "--only leaves movers out";
-  return facts.movers ? nullptr : "nothing in the scene moves";
-}
-
 const char* no_light_field(const BakeOptions& o, const IdleFacts& facts) {
   if (!o.with_transfer) return "--only leaves movers out";
   return facts.light_field ? nullptr : "nothing in the scene moves";
@@ -57,7 +52,6 @@ const IdleRule kRules[] = {
      [](const BakeOptions& o, const IdleFacts& facts) {
        return o.ways == WaysWanted::kAuto ? no_reflectors(o, facts) : "--reflections decides";
      }},
-    {"--transfer", no_movers},
     {"--verify", paths_alone},
     {"--views", no_maps},
 };

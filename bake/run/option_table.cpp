@@ -145,8 +145,6 @@ std::vector<Option> transfer_options(BakeOptions& o) {
        "Bands of spherical harmonics of movers' transfer and of the light around them: their square is the number of "
        "coefficients",
        number(o.transfer.bands, 2, 6), Use::kRare, "sh_bands"},
-      {"--transfer", kMovers, "Whether movers shade themselves: shadowed or unshadowed (as if every one was convex)",
-       self_shadow(o), Use::kRare, "transfer_shadowed"},
       {"--probe", kMovers,
        "Distance between the probes of the light that movers meet; they are a quarter as far apart where light changes",
        quantity(o.probes.spacing_m, "LENGTH", parse_length, length_text), Use::kRare, "probe_m"},
@@ -186,8 +184,6 @@ std::vector<Option> light_options(ImportOptions& import) {
        "the traditional overcast sky",
        number(import.day.sky_type, 1, 16), Use::kRare, "sky_type", "oriel-bake.md#sun-and-sky-by-the-hour", "",
        "--day"},
-      {"--ground", kLight, "Of --day: reflectance of the level ground that lies below the horizon",
-       number(import.day.ground, 0, 1), Use::kRare, "ground", "oriel-bake.md#sun-and-sky-by-the-hour", "", "--day"},
       {"--sky-scale", kLight, "Radiance in cd/m² of a 1 in the sky's file", number(import.sky_scale, 0, 1e30),
        Use::kRare, "sky_scale"},
       {"--sky-rotation", kLight, "Turns the sky's file, counter-clockwise seen from above, degrees",
@@ -270,7 +266,6 @@ std::vector<Option> bake_options(BakeOptions& o) {
 Status settle(BakeOptions& o, const Given& given) {
   RadiosityOptions& r = o.radiosity;
   o.given = given.typed();
-  if (!o.transfer.shadowed) o.transfer.bounces = 0;
   o.error_named = given.has("--error");
   // Who says what maps are to be like wants maps.
   const bool maps_named = given.has("--views") || given.has("--map-resolution");

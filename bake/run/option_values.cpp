@@ -182,12 +182,6 @@ OptionValue profiles(ImportOptions& o) {
   return value;
 }
 
-OptionValue self_shadow(BakeOptions& o) {
-  OptionValue value = choice(o.transfer.shadowed, {{"shadowed", true}, {"unshadowed", false}});
-  value.json = [&o] { return Json(o.transfer.shadowed); };
-  return value;
-}
-
 OptionValue light_groups(BakeOptions& o) {
   const auto name = [&o]() -> std::string {
     constexpr std::array<const char*, 4> kNames{"marked", "off", "auto", "each"};

@@ -24,7 +24,6 @@ OptionValue texel_means(BakeOptions& o);
 OptionValue detail_steps(BakeOptions& o);
 OptionValue parts(BakeOptions& o);  // --only
 OptionValue eyes(BakeOptions& o);
-OptionValue self_shadow(BakeOptions& o);
 OptionValue unit(double& unit_m, bool& guess);
 OptionValue light_groups(BakeOptions& o);
 OptionValue sky(ImportOptions& o);

@@ -38,7 +38,7 @@ TEST(Configurations, ShowAMovedLampInEveryWay) {
       EXPECT_EQ(c.play.at("--light"), "desk lamp=off");
     }
   }
-  EXPECT_EQ(moved, 5u);
+  EXPECT_EQ(moved, 4u);
   for (const Configuration& c : plan_trade(everything(), 0.1, true, "").configurations) {
     EXPECT_FALSE(c.moved) << c.name();
   }
@@ -64,7 +64,7 @@ TEST(Configurations, OfASceneWithEverythingVaryEveryKnob) {
   const TradePlan plan = plan_trade(everything(), 0.1, false, "lamp=1,2,3");
   EXPECT_THAT(plan.skipped, IsEmpty());
   for (const char* knob :
-       {"reflections", "views", "maps", "map resolution", "blur", "sh bands", "transfer", "mover lights", "shade"})
+       {"reflections", "views", "maps", "map resolution", "blur", "sh bands", "mover lights", "shade"})
     EXPECT_THAT(knobs(plan), Contains(knob));
 }
 
