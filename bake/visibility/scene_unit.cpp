@@ -81,8 +81,8 @@ class Probe {
       ++walls.count, behind += !wall.front;
       width += wall.distance * glm::abs(side);
     }
-    const Vec3 extent = scene_.upper - scene_.lower;
-    walls.of_body = 2 * behind > walls.count && (2 * width.x < extent.x || 2 * width.z < extent.z);
+    width.y = static_cast<float>(height);
+    walls.of_body = 2 * behind > walls.count && glm::any(glm::lessThan(2.0f * width, scene_.upper - scene_.lower));
     return walls;
   }
 

@@ -181,6 +181,17 @@ TEST(SceneUnit, FeetAreSaid) {
   EXPECT_FALSE(guess_unit(accel_of(scene)));
 }
 
+// Its seat is as wide as the scene, but no room from within.
+TEST(SceneUnit, AChairAloneKeepsMetres) {
+  SceneParts parts;
+  const std::uint32_t m = parts.diffuse(Vec3(0.5f));
+  parts.box("seat", m, {0, 0.42f, 0}, {0.45f, 0.45f, 0.4f});
+  parts.box("back", m, {0, 0.45f, 0.37f}, {0.45f, 0.9f, 0.4f});
+  for (const float x : {0.0f, 0.41f})
+    for (const float z : {0.0f, 0.36f}) parts.box("leg", m, {x, 0, z}, {x + 0.04f, 0.42f, z + 0.04f});
+  EXPECT_FALSE(guess_unit(accel_of(parts.finish())));
+}
+
 TEST(SceneUnit, ThingsWithoutRoomsTellNothing) {
   SceneParts parts;
   parts.sphere("ball", parts.diffuse(Vec3(0.5f)), Vec3(0), 0.01f, 2);
