@@ -19,7 +19,7 @@ constexpr double kUsualFrom = 1.2, kUsualTo = 40;  // medians that are odd, but 
 constexpr double kNobodys = 1000;                  // m: no room is that high
 constexpr double kUsual = 2.7, kStorey = 6;        // m: height of a storey, and of the highest but halls
 constexpr double kFoot = 0.3048;
-constexpr double kUnits[] = {0.001, 0.01, 0.0254, kFoot, 100, 1000};  // m: mm, cm, in; cm, mm made metres twice
+constexpr double kUnits[] = {0.001, 0.01, 0.0254, kFoot, 10, 100, 1000};  // m: mm, cm, in; dm, cm, mm made metres twice
 
 // Points are drawn in three ways, for no single one is fair to all scenes: evenly over surfaces (a room of a hundred
 // surfaces beside a ground plane of one), over triangles, and over square metres.
