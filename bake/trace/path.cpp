@@ -16,7 +16,8 @@ constexpr float kMostPaths = 16;  // that one splits into at a time
 
 FromEmitter sample_lights_bsdf(const Tracing& by, const SurfacePoint& surface, const Shading& shading) {
   return sample_lights(
-      by, surface, [&](const Vec3& wi) { return shading.eval(wi); }, [&](const Vec3& wi) { return shading.pdf(wi); });
+      by, surface, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
+      [&](const Vec3& wi) { return shading.pdf(wi); });
 }
 
 // One path, vertex by vertex.
@@ -200,14 +201,14 @@ class PathTracer {
   void add_mirrored(const SurfacePoint& surface, const Shading& shading, int bounce, PathLight& light) {
     sample_mirrored(
         {t_, sampler_, rays_}, surface, t_.options.max_bounces - bounce - 1,
-        [&](const Vec3& wi) { return shading.eval(wi); },
+        [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
         [&](const Vec3&, std::uint32_t group, const Vec3& from) {
           light.scattered += throughput_ * from;
           if (t_.grouped) t_.grouped->add(PathGroups::kScattered, group, throughput_ * from);
           if (t_.listener) t_.listener->add("mirrored lamps", throughput_ * from);
         });
     sample_frosted(
-        {t_, sampler_, rays_}, surface, [&](const Vec3& wi) { return shading.eval(wi); },
+        {t_, sampler_, rays_}, surface, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
         [&](const Vec3&, std::uint32_t group, const Vec3& from) {
           light.scattered += throughput_ * from;
           if (t_.grouped) t_.grouped->add(PathGroups::kScattered, group, throughput_ * from);
@@ -249,14 +250,14 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
   record(t, from.lamp ? PathGroups::kLamps : PathGroups::kScattered, from.group, from.direction, from.light);
   if (t.listener) t.listener->add("lamps", from.light);
   sample_mirrored(
-      by, surface, t.options.max_bounces - 1, [&](const Vec3& wi) { return shading.eval(wi); },
+      by, surface, t.options.max_bounces - 1, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
       [&](const Vec3&, std::uint32_t group, const Vec3& mirrored) {
         light.scattered += mirrored;
         if (t.grouped) t.grouped->add(PathGroups::kScattered, group, mirrored);
         if (t.listener) t.listener->add("mirrored lamps", mirrored);
       });
   sample_frosted(
-      by, surface, [&](const Vec3& wi) { return shading.eval(wi); },
+      by, surface, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
       [&](const Vec3&, std::uint32_t group, const Vec3& frosted) {
         light.scattered += frosted;
         if (t.grouped) t.grouped->add(PathGroups::kScattered, group, frosted);
@@ -329,7 +330,7 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
   const Tracing by{t, sampler, rays};
   const Shading shading(surface, surface.normal);
   const auto density = [&](const Vec3& wi) {
-    return directional ? shading.both(wi, [](const Vec3& w) { return linear_hemisphere_pdf(w.z); })
+    return directional ? shading.reflected(wi, [](const Vec3& w) { return linear_hemisphere_pdf(w.z); })
                        : shading.cosine(wi) / kPi;
   };
   const auto add_moments = [&](const Vec3& estimate, const Vec3& from) {
@@ -341,9 +342,9 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
   float light_cosine = 0;
   s.direct = sample_lights(
                  by, surface,
-                 [&](const Vec3& wi) {
+                 [&](const Vec3& wi, bool punctual) {
                    towards = wi;
-                   light_cosine = shading.cosine(wi);
+                   light_cosine = shading.cosine(wi, punctual);
                    return Vec3(light_cosine);
                  },
                  density)
@@ -351,14 +352,15 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
   if (t.listener) t.listener->add("lamps", s.direct);
   if (directional && light_cosine > 0) add_moments(s.direct / light_cosine, towards);
   sample_mirrored(
-      by, surface, t.options.max_bounces, [&](const Vec3& wi) { return Vec3(shading.cosine(wi)); },
+      by, surface, t.options.max_bounces,
+      [&](const Vec3& wi, bool punctual) { return Vec3(shading.cosine(wi, punctual)); },
       [&](const Vec3& from, std::uint32_t, const Vec3& mirrored) {
         s.direct += mirrored;
         if (t.listener) t.listener->add("mirrored lamps", mirrored);
-        if (directional) add_moments(mirrored / shading.cosine(from), from);
+        if (directional) add_moments(mirrored / shading.cosine(from, true), from);
       });
   sample_frosted(
-      by, surface, [&](const Vec3& wi) { return Vec3(shading.cosine(wi)); },
+      by, surface, [&](const Vec3& wi, bool punctual) { return Vec3(shading.cosine(wi, punctual)); },
       [&](const Vec3& from, std::uint32_t, const Vec3& frosted) {
         s.direct += frosted;
         if (t.listener) t.listener->add("frosted lamps", frosted);

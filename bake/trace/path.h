@@ -41,11 +41,14 @@ struct SurfacePoint {
   float magnitude = 0;  // largest |coordinate| of the triangle: what position's rounding error is relative to
   Vec3 geometric_normal{0, 0, 1};  // unit, on the side of wo
   Vec3 normal{0, 0, 1};            // unit shading normal, on the side of wo
+  float rounded = 0;               // height_of_rounded(), m; 0 where a map turns the normal
   Vec3 tangent{0};                 // along the wide direction of an anisotropic lobe; 0: any
   ShadePoint shade;
   bool front = true;      // wo is on the triangle's front side
   bool emits = false;     // towards wo
   bool reflects = false;  // towards wo: false for the back of a one-sided surface that is not solid glass
+
+  const Vec3& horizon() const { return rounded > 0 ? normal : geometric_normal; }  // of light that it reflects
 };
 
 // Everything but the shading parameters: cheap, no texture is read.
@@ -94,8 +97,10 @@ class PathGroups {
 
 // The origin of a ray that leaves the surface.
 inline Vec3 spawn_origin(const SurfacePoint& s, const Vec3& direction) {
-  return offset_origin(
-      s.position, glm::dot(s.geometric_normal, direction) < 0 ? -s.geometric_normal : s.geometric_normal, s.magnitude);
+  if (glm::dot(s.geometric_normal, direction) >= 0) return offset_origin(s.position, s.geometric_normal, s.magnitude);
+  if (s.rounded > 0 && glm::dot(s.normal, direction) > 0)
+    return offset_origin(s.position + s.rounded * s.geometric_normal, s.geometric_normal, s.magnitude);
+  return offset_origin(s.position, -s.geometric_normal, s.magnitude);
 }
 
 struct PathLight {

@@ -19,9 +19,9 @@ constexpr float kSmallSolidAngle = 0.02f;
 // Signed: positive where the receiver is on the front side.
 float irradiance_of_triangle(const std::array<Vec3, 3>& corners, const Receiver& r) {
   ClippedPolygon all{{corners[0] - r.position, corners[1] - r.position, corners[2] - r.position}, 3};
-  const ClippedPolygon above = clip(all, r.geometric_normal);
+  const ClippedPolygon above = clip(all, r.horizon());
   if (above.count < 3) return 0;
-  if (r.normal == r.geometric_normal) return -glm::dot(polygon_vector(above), r.normal);
+  if (r.normal == r.horizon()) return -glm::dot(polygon_vector(above), r.normal);
   float sum = 0;
   for (const Vec3& n : {r.normal, r.mirrored_normal()}) {
     const ClippedPolygon part = clip(above, n);
@@ -141,7 +141,7 @@ float polygon_irradiance(const PolygonLight& light, const Receiver& r) {
   const Vec3 to = light.center - r.position;
   const float height = -glm::dot(light.normal, to);  // of the receiver over the light's plane
   if (light.double_sided ? height == 0 : height <= 0) return 0;
-  const float above = glm::dot(r.geometric_normal, to);
+  const float above = glm::dot(r.horizon(), to);
   if (above <= -light.radius) return 0;
   const float d2 = glm::dot(to, to);
   if (above > light.radius && d2 > kFar * kFar * light.radius * light.radius) {
@@ -149,7 +149,7 @@ float polygon_irradiance(const PolygonLight& light, const Receiver& r) {
     return incidence(r, to / d) * (static_cast<float>(light.area_m2()) * std::abs(height) / (d2 * d));
   }
   float sum = 0;
-  if (above > light.radius && r.normal == r.geometric_normal) {
+  if (above > light.radius && r.normal == r.horizon()) {
     Vec3 vector(0);
     for (const auto& edge : light.boundary) vector += edge_vector(edge[0] - r.position, edge[1] - r.position);
     sum = -0.5f * glm::dot(vector, r.normal);

@@ -33,20 +33,22 @@ bool all_emission_is_plain(const Scene& scene);
 
 // Where light is received: a point, its shading normal and the normal of the real surface there (both unit). Incidence
 // is weighted by both cosines as the path tracer does it: max(0, n·ω) + max(0, n·ω') for ω above the real surface, ω'
-// its mirror image below (docs/notes/conventions.md); with n = g that is plain irradiance.
+// its mirror image below (docs/notes/conventions.md); with n = g, or on a rounded surface, that is plain irradiance.
 struct Receiver {
   Vec3 position{0};
   Vec3 normal{0, 0, 1};
   Vec3 geometric_normal{0, 0, 1};
+  float rounded = 0;  // height_of_rounded(), m
 
+  const Vec3& horizon() const { return rounded > 0 ? normal : geometric_normal; }  // of what it receives
   Vec3 mirrored_normal() const { return normal - 2 * glm::dot(normal, geometric_normal) * geometric_normal; }
 };
 
-// The weight of light from ω (unit, above the real surface).
+// The weight of light from ω (unit).
 inline float incidence(const Receiver& r, const Vec3& direction) {
-  if (glm::dot(r.geometric_normal, direction) <= 0) return 0;
+  if (glm::dot(r.horizon(), direction) <= 0) return 0;
   const float straight = std::max(0.0f, glm::dot(r.normal, direction));
-  if (r.normal == r.geometric_normal) return straight;
+  if (r.normal == r.horizon()) return straight;
   return straight + std::max(0.0f, glm::dot(r.mirrored_normal(), direction));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/trace/path.h"
+#include "bake/trace/rounded.h"
 #include "bake/trace/shading.h"
 #include "formats/core/color.h"
 
@@ -18,8 +19,8 @@ inline float balance(float pdf, float other) {
   return pdf / (pdf + other);
 }
 
-// Incident light from one sampled emitter, times f·cosθ as `reflect(wi)` gives it; `pdf_of(wi)` is the density with
-// which the other strategy would have chosen that direction.
+// Incident light from one sampled emitter, times f·cosθ as `reflect(wi, punctual)` gives it; `pdf_of(wi)` is the
+// density with which the other strategy would have chosen that direction.
 struct FromEmitter {
   Vec3 light{0};
   bool lamp = false;        // a near one, or a sun on a polished surface: what lamp paths follow where they are traced
@@ -35,10 +36,12 @@ FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const 
   const Vec2 v = sampler.next2();
   if (t.lights.empty()) return {};
   // Sampled from where the shadow ray starts: close to a lamp over a large floor the offset is not small.
-  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
-  const LightSample light = t.lights.sample(origin, u, v);
-  if (max_component(light.estimate) <= 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return {};
-  Vec3 value = light.estimate * reflect(light.direction);
+  const Receiver receiver = receiver_of(surface);
+  const LightSample light = t.lights.sample(receiver.position, u, v);
+  const bool punctual = light.pdf == 0;
+  if (max_component(light.estimate) <= 0) return {};
+  if (!((punctual ? punctual_incidence : incidence)(receiver, light.direction) > 0)) return {};
+  Vec3 value = light.estimate * reflect(light.direction, punctual);
   if (max_component(value) <= 0) return {};
   if (light.pdf > 0) value *= balance(light.pdf, pdf_of(light.direction));
   if (!is_usable(value)) {
@@ -47,9 +50,8 @@ FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const 
   }
   const bool lamp = light.near || (light.sun && is_polished(t.accel.scene().material_of(surface.triangle)));
   if (!(light.distance > 0)) return {value, lamp, light.group, light.direction};  // touching
-  ++rays;
-  const Ray ray{origin, light.direction, light.distance, light.pdf == 0, light.pdf > 0};
-  return {value * t.accel.transmittance(ray), lamp, light.group, light.direction};
+  const ShadowLegs legs(receiver, {receiver.position, light.direction, light.distance, punctual, !punctual});
+  return {value * t.accel.transmittance_of_all(legs.rays(), rays), lamp, light.group, light.direction};
 }
 
 inline void record(const Transport& t, PathGroups::Kind kind, std::uint32_t group, const Vec3& direction,
@@ -93,7 +95,7 @@ void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mi
     if (mirrored[i].order > most_mirrors || !mirrored[i].may_reach(DVec3(origin), 0)) return;
     const MirroredSample light = mirrored.sample(i, t.lights, origin, v);
     if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;
-    Vec3 value = weight * light.endless * light.share * reflect(light.direction);
+    Vec3 value = weight * light.endless * light.share * reflect(light.direction, true);
     if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
     if (!is_usable(value) || max_component(value) <= 0) return;
     value *= t.accel.transmittance_of_all(light.rays(), rays);
@@ -113,7 +115,7 @@ void sample_frosted(const Tracing& by, const SurfacePoint& surface, const Reflec
     const Vec2 of_light = sampler.next2();
     const MirroredSample light = frosted.sample(i, t.lights, origin, {of_light, sampler.next2()});
     if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;
-    Vec3 value = weight * light.endless * reflect(light.direction);
+    Vec3 value = weight * light.endless * reflect(light.direction, false);
     if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
     if (!is_usable(value) || max_component(value) <= 0) return;
     value *= t.accel.transmittance_of_all(light.rays(), by.rays);

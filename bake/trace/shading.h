@@ -10,7 +10,8 @@ inline constexpr int kMaxPasses = 256;
 
 // A shading normal tilts the lobe, and a part of it falls below the geometric surface; that part is mirrored back above
 // it, in evaluation, pdf and sampling alike. So no energy is lost at smooth normals (a closed sphere of triangles stays
-// an exact furnace), and light never leaks through.
+// an exact furnace), and light never leaks through. Where the body is rounded (SurfacePoint::rounded) nothing is
+// mirrored: rays below the facet leave from the rounded surface.
 //
 // Refers to the surface, whose shade must stay what it is once lobes were asked for. wo, wi: unit, world, away from the
 // surface on its side of wo.
@@ -20,20 +21,26 @@ class Shading {
 
   Vec3 fold(const Vec3& w) const { return w - 2 * glm::dot(w, surface_.geometric_normal) * surface_.geometric_normal; }
 
-  // Sum of g over w and its mirror image; w above the geometric surface, g takes local directions.
+  // Sum of g over w and, if folded, its mirror image; g takes local directions.
   template <class G>
-  auto both(const Vec3& w, const G& g) const {
+  auto both(const Vec3& w, const G& g, bool folded) const {
     auto value = g(local(w));
-    if (tilted_) value += g(local(fold(w)));
+    if (folded) value += g(local(fold(w)));
     return value;
   }
+  // The same of reflected light; w where it may come from. punctual: from one direction (punctual_incidence).
+  template <class G>
+  auto reflected(const Vec3& w, const G& g, bool punctual = false) const {
+    return both(w, g, tilted_ && !punctual && !(surface_.rounded > 0));
+  }
   // f cosθ, delta lobes excluded.
-  Vec3 eval(const Vec3& wi) const {
-    return both(wi, [&](const Vec3& w) { return bsdf().eval(w); });
+  Vec3 eval(const Vec3& wi, bool punctual = false) const {
+    return reflected(
+        wi, [&](const Vec3& w) { return bsdf().eval(w); }, punctual);
   }
   // Per steradian, of what sample() and above() choose; delta lobes excluded.
   float pdf(const Vec3& wi) const {
-    return both(wi, [&](const Vec3& w) { return bsdf().pdf(w); });
+    return reflected(wi, [&](const Vec3& w) { return bsdf().pdf(w); });
   }
   // A local direction (Bsdf::sample).
   std::optional<BsdfSample> sample(float u, const Vec2& v) const { return bsdf().sample(u, v); }
@@ -44,16 +51,17 @@ class Shading {
   // Per steradian, of what spread() chooses; wi: any direction.
   float spread_pdf(const Vec3& wi) const {
     if (glm::dot(wi, surface_.geometric_normal) >= 0) return 0;
-    return both(wi, [&](const Vec3& w) { return bsdf().spread_pdf(w); });
+    return both(
+        wi, [&](const Vec3& w) { return bsdf().spread_pdf(w); }, tilted_);
   }
   static float cosine_of(const Vec3& w) { return std::max(0.0f, w.z); }
-  float cosine(const Vec3& wi) const { return both(wi, cosine_of); }
+  float cosine(const Vec3& wi, bool punctual = false) const { return reflected(wi, cosine_of, punctual); }
 
   Vec3 local(const Vec3& w) const { return glm::transpose(frame_) * w; }
-  // A sampled local direction as a world direction above the geometric surface.
+  // A sampled local direction as a world direction above the surface.
   Vec3 above(const Vec3& w) const {
     const Vec3 world = glm::normalize(frame_ * w);
-    return glm::dot(world, surface_.geometric_normal) < 0 ? fold(world) : world;
+    return glm::dot(world, surface_.horizon()) < 0 ? fold(world) : world;
   }
 
   // The same of refracted light below it, and of any other above it.

@@ -1,4 +1,5 @@
 #include "bake/trace/path.h"
+#include "bake/trace/rounded.h"
 
 namespace oriel {
 namespace {
@@ -37,6 +38,8 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
                    s.geometric_normal);
   // Seen from below its shading normal, a surface is shaded with its geometric one.
   if (glm::dot(s.normal, direction) >= 0) s.normal = s.geometric_normal;
+  if (s.normal != s.geometric_normal)
+    s.rounded = height_of_rounded(scene, hit.triangle, s.position, s.geometric_normal);
   s.front = hit.front;
   const SceneMaterial& material = scene.material_of(hit.triangle);
   s.reflects = hit.front || material.double_sided || material.solid;
@@ -49,6 +52,7 @@ SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& directio
   const SceneMaterial& material = scene.material_of(hit.triangle);
   if (material.normal_texture.image >= 0) {
     const float side = hit.front ? 1.0f : -1.0f;
+    s.rounded = 0;
     s.normal =
         facing(side * mapped_normal(scene, hit.triangle, hit.barycentric, side * s.normal, footprint), -direction);
   }

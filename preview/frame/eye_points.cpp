@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bake/trace/accel.h"
+#include "bake/trace/rounded.h"
 #include "bake/trace/sampler.h"
 
 namespace oriel {
@@ -14,11 +14,14 @@ constexpr std::uint64_t kEyeStream = 0x657965;
 
 EyePoint eye_point(const SeenPoints& seen, std::size_t pixel, const Scene& scene) {
   const Vec3 place(seen.place[pixel]), face(seen.face[pixel]);
-  const UVec3& t = scene.triangles[static_cast<std::size_t>(seen.place[pixel].w) - 1];
+  const std::uint32_t triangle = static_cast<std::uint32_t>(seen.place[pixel].w) - 1;
+  const UVec3& t = scene.triangles[triangle];
   float magnitude = 0;
   for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[t[k]])));
   // But for the surface's own thickness of rounding.
-  return {{place, Vec3(seen.normal[pixel]), face}, offset_origin(place, face, magnitude)};
+  const Vec3 normal(seen.normal[pixel]);
+  const float rounded = normal != face ? height_of_rounded(scene, triangle, place, face) : 0;
+  return {{place, normal, face, rounded}, offset_origin(place, face, magnitude)};
 }
 
 std::vector<EyePoint> eye_points(const SeenPoints& seen, const Scene& scene, std::uint32_t count, std::uint64_t seed,

@@ -8,6 +8,7 @@
 #include "bake/scene/shade.h"
 #include "bake/scene/sky.h"
 #include "bake/trace/punctual.h"
+#include "bake/trace/rounded.h"
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
@@ -55,11 +56,13 @@ std::optional<Shone> shine(const LampPoint& lamp, const EyePoint& at, const Scen
     out.ray = {at.origin, to / distance, distance};
   }
   const Vec3 direction = out.ray.direction;
-  float share = incidence(at.at, direction) / (d2 + lamp.soft);
-  if (lamp.kind == LampKind::kFlat) share *= -glm::dot(lamp.normal, direction);
+  const bool flat = lamp.kind == LampKind::kFlat;
+  float share = (flat ? incidence : punctual_incidence)(at.at, direction) / (d2 + lamp.soft);
+  if (flat) share *= -glm::dot(lamp.normal, direction);
   if (!(share > 0)) return std::nullopt;
   if (lamp.light != ~0u) out.light = lamp.share * punctual_intensity(scene, scene.lights[lamp.light], -direction);
   out.light *= share;
+  if (!flat) out.ray = ShadowLegs(at.at, out.ray).rays().back();
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "bake/jobs/parallel.h"
-#include "bake/trace/polygon_light.h"
+#include "bake/trace/rounded.h"
 #include "bake/trace/warp.h"
 
 namespace oriel {
@@ -92,8 +92,7 @@ class SpecularTracer {
   }
 
   Vec3 from_elements(const SurfacePoint& surface, Sampler& sampler) const {
-    const EyePoint at{{surface.position, surface.normal, surface.geometric_normal},
-                      spawn_origin(surface, surface.geometric_normal)};
+    const EyePoint at{receiver_of(surface), spawn_origin(surface, surface.geometric_normal)};
     const std::size_t count = frame_.reflecting.size();
     Vec3 sum(0);
     for (int i = 0; i < kLampPoints && count > 0; ++i) {
@@ -105,16 +104,18 @@ class SpecularTracer {
   }
 
   Vec3 from_lamps(const SurfacePoint& surface, Sampler& sampler) const {
-    const Receiver receiver{surface.position, surface.normal, surface.geometric_normal};
-    const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+    const Receiver receiver = receiver_of(surface);
     Vec3 sum(0);
+    std::uint64_t rays = 0;
     for (int i = 0; i < kLampPoints && !transport_.lights.empty(); ++i) {
       const float u = sampler.next1();
-      const LightSample light = transport_.lights.sample(origin, u, sampler.next2());
-      if (glm::dot(light.direction, surface.geometric_normal) <= 0 || max_component(light.estimate) <= 0) continue;
-      const Vec3 passed =
-          light.distance > 0 ? transport_.accel.transmittance({origin, light.direction, light.distance}) : Vec3(1);
-      const Vec3 value = incidence(receiver, light.direction) * light.estimate * passed;
+      const LightSample light = transport_.lights.sample(receiver.position, u, sampler.next2());
+      if (max_component(light.estimate) <= 0) continue;
+      const bool punctual = light.pdf == 0;
+      const ShadowLegs legs(receiver, {receiver.position, light.direction, light.distance});
+      const Vec3 passed = light.distance > 0 ? transport_.accel.transmittance_of_all(legs.rays(), rays) : Vec3(1);
+      const Vec3 value =
+          (punctual ? punctual_incidence : incidence)(receiver, light.direction) * light.estimate * passed;
       if (is_usable(value)) sum += value;
     }
     return sum / static_cast<float>(kLampPoints);

@@ -5,6 +5,7 @@
 
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/texels/seeds.h"
+#include "bake/trace/rounded.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -169,7 +170,7 @@ void DirectGroup::sample_punctual_light(std::uint32_t l) {
     const Point& point = points_[p];
     Sampler sampler(d_.seed_ + seeds::kSharpLight + l, stream_of(list_[point.texel], point.half), point.k);
     const LightSample s = d_.t_.lights.sample_light(l, point.sample_point.origin, sampler.next2());
-    const Vec3 value = s.estimate * incidence(point.sample_point.receiver(), s.direction);
+    const Vec3 value = s.estimate * punctual_incidence(point.sample_point.receiver(), s.direction);
     if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
     tallies_[point.texel].unoccluded[point.half] += value;
     add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, true, false}, value);
@@ -189,13 +190,13 @@ void DirectGroup::sample_mirrored_light(std::uint32_t i) {
     const Point& point = points_[p];
     Sampler sampler(d_.seed_ + seeds::kMirroredLight + i, stream_of(list_[point.texel], point.half), point.k);
     const MirroredSample s = mirrored.sample(i, d_.t_.lights, point.sample_point.origin, sampler.next2());
-    const Vec3 value = s.endless * incidence(point.sample_point.receiver(), s.direction);
+    const Vec3 value = s.endless * punctual_incidence(point.sample_point.receiver(), s.direction);
     if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
     tallies_[point.texel].unoccluded[point.half] += value;
     tallies_[point.texel].proposal_weight[point.half] += value;
     if (s.legs == 0) continue;
     rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
-    shadow_rays_.push_back({p, value, s.direction, kNoGroup, s.legs, s.share});
+    shadow_rays_.push_back({p, value, s.direction, kNoGroup, s.legs, true, s.share});
   }
 }
 
@@ -230,10 +231,11 @@ void DirectGroup::add_shadow_ray(std::uint32_t point, const Ray& ray, const Vec3
   const Point& p = points_[point];
   tallies_[p.texel].proposal_weight[p.half] += weight;
   if (ray.max_distance > 0) {
-    rays_to_trace_.push_back(ray);
-    shadow_rays_.push_back({point, weight, ray.direction, group});
+    const ShadowLegs legs(p.sample_point.receiver(), ray);
+    rays_to_trace_.insert(rays_to_trace_.end(), legs.rays().begin(), legs.rays().end());
+    shadow_rays_.push_back({point, weight, ray.direction, group, legs.count(), ray.past_solids});
   } else {
-    add_transmitted({point, weight, ray.direction, group}, Vec3(1));  // touching
+    add_transmitted({point, weight, ray.direction, group, 0, ray.past_solids}, Vec3(1));  // touching
   }
 }
 
@@ -246,7 +248,9 @@ void DirectGroup::add_transmitted(const ShadowRay& shadow_ray, const Vec3& trans
     each_owner(scene(), shadow_ray.group, shadow_ray.direction, light,
                [&](std::uint32_t group, const Vec3& part) { grouped_transmitted_[p.half].of(p.texel)[group] += part; });
   if (!directional_) return;
-  const float cosine = std::max(incidence(p.sample_point.receiver(), shadow_ray.direction), 1e-6f);
+  const Receiver receiver = p.sample_point.receiver();
+  const float cosine =
+      std::max((shadow_ray.punctual ? punctual_incidence : incidence)(receiver, shadow_ray.direction), 1e-6f);
   tally.transmitted_moments += moments_of(luminance(light) / cosine, shadow_ray.direction);
 }
 
@@ -340,7 +344,7 @@ void DirectGroup::sample_many_punctual(const Sample& sample) {
       const LightSample s = sample(point, sampler);
       if (s.pdf > 0) continue;  // an emissive surface, or the sky
       const Vec3 value =
-          s.estimate * (incidence(point.sample_point.receiver(), s.direction) / static_cast<float>(kPicks));
+          s.estimate * (punctual_incidence(point.sample_point.receiver(), s.direction) / static_cast<float>(kPicks));
       if (max_component(value) > 0 && is_usable(point, value))
         add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, true, false}, value, s.group);
     }

@@ -38,6 +38,7 @@ class DirectGroup {
     Vec3 direction{0};
     std::uint32_t group = kNoGroup;  // light group of a randomly chosen light; others are added by finish_light()
     int segments = 1;                // rays along the path
+    bool punctual = false;           // of a point, a spot or a sun
     Vec3 share{1};                   // throughput apart from transmittance
   };
   // Sums of a texel: those of the current light, and those of all lights so far.

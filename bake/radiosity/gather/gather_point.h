@@ -16,12 +16,14 @@ class GatherPoint {
       : frame_(frame_from_normal(point.normal)), point_(point), tilted_(point.normal != point.geometric_normal) {}
 
   // A ray with a cosine distribution about the shading normal. A direction below the geometric surface is mirrored to
-  // above it. u: [0,1)².
+  // above it, or leaves from the rounded one. u: [0,1)².
   Ray ray(const Vec2& u) const {
     Vec3 direction = frame_ * square_to_cosine_hemisphere(u);
     if (tilted_)
-      if (const float height = glm::dot(direction, point_.geometric_normal); height < 0)
+      if (const float height = glm::dot(direction, point_.geometric_normal); height < 0) {
+        if (point_.rounded > 0) return {point_.origin + point_.rounded * point_.geometric_normal, direction};
         direction -= 2 * height * point_.geometric_normal;
+      }
     return {point_.origin, direction};
   }
   // A ray to a point, and the distance to it, m; distance 0 if the point lies below the surface.

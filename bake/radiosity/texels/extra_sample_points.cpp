@@ -2,6 +2,7 @@
 
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/trace/buried.h"
+#include "bake/trace/rounded.h"
 #include "bake/trace/view_samples.h"
 
 namespace oriel {
@@ -26,7 +27,8 @@ SurfacePoint texel_candidate(const LightmapScene& scene, const Texels& texels, c
 }
 
 SamplePoint sample_point_of(const SurfacePoint& s) {
-  return {spawn_origin(s, s.geometric_normal), s.normal, s.geometric_normal};
+  const Receiver at = receiver_of(s);
+  return {at.position, at.normal, at.geometric_normal, at.rounded};
 }
 
 std::uint32_t ExtraSamplePoints::cached_count(std::uint32_t i, int half) const {

@@ -20,12 +20,13 @@ struct SamplePoint {
   Vec3 origin{0};
   Vec3 normal{0, 0, 1};            // interpolated, for shading
   Vec3 geometric_normal{0, 0, 1};  // of the real surface
+  float rounded = 0;               // height_of_rounded(), m
 
-  Receiver receiver() const { return {origin, normal, geometric_normal}; }
+  Receiver receiver() const { return {origin, normal, geometric_normal, rounded}; }
 };
 
 inline void fields(Archive& archive, SamplePoint& point) {
-  archive(point.origin, point.normal, point.geometric_normal);
+  archive(point.origin, point.normal, point.geometric_normal, point.rounded);
 }
 
 // Every estimate has two independent halves, with separate points and directions: their difference measures the error.
