@@ -29,6 +29,7 @@ void fields(Archive& archive, const SurfacesOf& of) {
   const Scene& s = of.scene;
   archive(s.lower, s.upper, s.positions, s.normals, s.uv0, s.uv1, s.colors, s.tangents, s.triangles, s.triangle_surface,
           s.twin, s.face_normals);
+  for (const ChartCut& cut : s.cuts) archive(cut.from, cut.to);
   for (const Surface& surface : s.surfaces)
     archive(surface.material, surface.first_triangle, surface.triangle_count, surface.first_vertex,
             surface.vertex_count);

@@ -7,9 +7,11 @@
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
 #include "bake/run/inputs.h"
+#include "bake/visibility/divide.h"
 #include "bake/visibility/eye_height.h"
 #include "bake/visibility/lit_eyes.h"
 #include "bake/visibility/scene_unit.h"
+#include "bake/visibility/wall_cuts.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -109,6 +111,15 @@ std::uint64_t bytes_besides_texels(const BakeOptions& options, const Scene& scen
   return bytes + (options.with_radiance ? 3 * options.planned.memory_bytes : 0);
 }
 
+// Cuts floors, ceilings and walls under the walls that stand on them.
+Status part_rooms(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
+  if (options.atlas.source == AtlasOptions::Source::kUv1) return {};
+  Scene& scene = prepared.imported->scene;
+  scene.cuts = timed("walls", [&](auto&) { return find_wall_cuts(*prepared.accel, prepared.walk.size()); });
+  if (!cut_triangles(scene)) return {};
+  return build_accel(options, timed, context, prepared);
+}
+
 // Splits the scene's double-sided surfaces by the light on their sides.
 Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatch& timed, Context& context) {
   Scene& scene = prepared.imported->scene;
@@ -197,6 +208,7 @@ Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed
     prepared.omissions.emplace_back("movers: left out by --only; they stand still");
   settle_eye_height(options, prepared.unit_guessed, context, prepared);
   ORIEL_TRY_VOID(find_eyes(options, timed, context, prepared));
+  ORIEL_TRY_VOID(part_rooms(options, timed, context, prepared));
   ORIEL_TRY_VOID(light_sides(options, prepared, timed, context));
   return prepared;
 }

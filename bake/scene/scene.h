@@ -155,6 +155,12 @@ struct SkyParts {
 
 // All surfaces flattened into world-oriented triangles. Scene space is metres relative to `origin`, so that floats stay
 // precise far from the world's origin. Vertex arrays have the same length.
+// A straight line in a flat surface, on edges of its triangles, at which charts end: under a wall that parts two rooms.
+struct ChartCut {
+  Vec3 from{0}, to{0};  // scene space
+};
+inline constexpr double kCutTolerance_m = 1e-3f;  // from it to the ends of edges on it
+
 struct Scene {
   // In scene.cpp, so that not every file compiles them.
   Scene();
@@ -182,6 +188,7 @@ struct Scene {
   // front the ray meets.
   std::vector<std::uint32_t> twin;
   std::vector<Surface> surfaces;
+  std::vector<ChartCut> cuts;  // of walls (wall_cuts.h)
   std::vector<SceneMover> movers;
   std::vector<SceneMover> lamp_motions;  // of lamps that the file animates: their light is baked where they rest
   std::vector<SceneMaterial> materials;

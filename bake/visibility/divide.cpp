@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
 #include "formats/core/check.h"
@@ -33,22 +34,20 @@ struct EdgeHash {
 
 class Divider {
  public:
-  Divider(Scene& scene, float shortest, const std::function<bool(const Corners&)>& wanted)
-      : scene_(scene), shortest_(shortest), wanted_(wanted) {
+  explicit Divider(Scene& scene, float shortest = 0) : scene_(scene), shortest_(shortest) {
     vertex_surface_.resize(scene.positions.size());
     for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s)
       for (std::uint32_t v = 0; v < scene.surfaces[s].vertex_count; ++v)
         vertex_surface_[scene.surfaces[s].first_vertex + v] = s;
   }
 
-  bool run() {
-    ORIEL_CHECK_EQ(scene_.twin.size(), std::size_t{0});
+  bool divide(const std::function<bool(const Corners&)>& wanted) {
+    const auto is_wanted = [&](const UVec3& v) { return longest(v) > shortest_ && wanted(corners(v)); };
     std::vector<std::uint32_t> work;
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
       if (is_wanted(scene_.triangles[t])) work.push_back(t);
     if (work.empty()) return false;
-    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) pieces_.push_back({scene_.triangles[t], t, false});
-    for (std::uint32_t p = 0; p < pieces_.size(); ++p) add_edges(p);
+    begin([](const Surface&) { return true; });
     while (!work.empty()) {
       const std::uint32_t p = work.back();
       work.pop_back();
@@ -63,12 +62,64 @@ class Divider {
     return true;
   }
 
+  bool cut() {
+    if (scene_.cuts.empty()) return false;
+    begin([this](const Surface& surface) { return surface.mover < 0 && is_near_cut(surface); });
+    const std::size_t before = pieces_.size();
+    for (const ChartCut& line : scene_.cuts)
+      for (std::uint32_t p = 0; p < pieces_.size(); ++p) cut_piece(p, line);
+    if (pieces_.size() == before) return false;
+    write();
+    return true;
+  }
+
  private:
+  template <class Takes>
+  void begin(const Takes& takes) {
+    ORIEL_CHECK_EQ(scene_.twin.size(), std::size_t{0});
+    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) pieces_.push_back({scene_.triangles[t], t, false});
+    for (std::uint32_t p = 0; p < pieces_.size(); ++p)
+      if (takes(scene_.surfaces[scene_.triangle_surface[pieces_[p].of]])) add_edges(p);
+  }
+
+  bool is_near_cut(const Surface& surface) const {
+    const auto first = scene_.positions.begin() + surface.first_vertex, end = first + surface.vertex_count;
+    Vec3 lower(std::numeric_limits<float>::max()), upper(-lower);
+    for (auto p = first; p != end; ++p) lower = glm::min(lower, *p), upper = glm::max(upper, *p);
+    const Vec3 tolerance(static_cast<float>(kCutTolerance_m));
+    return std::ranges::any_of(scene_.cuts, [&](const ChartCut& cut) {
+      return glm::all(glm::lessThan(glm::min(cut.from, cut.to), upper + tolerance)) &&
+             glm::all(glm::greaterThan(glm::max(cut.from, cut.to), lower - tolerance));
+    });
+  }
+
+  // Its pieces come after it, and are cut in their turn.
+  void cut_piece(std::uint32_t p, const ChartCut& line) {
+    if (pieces_[p].cut) return;
+    const UVec3 v = pieces_[p].vertex;
+    const Corners c = corners(v);
+    const Vec3 n = geometric_normals_[pieces_[p].of];
+    if (std::abs(glm::dot(n, line.from - c[0])) > kCutTolerance_m ||
+        std::abs(glm::dot(n, line.to - c[0])) > kCutTolerance_m)
+      return;
+    const float length = glm::distance(line.from, line.to);
+    const Vec3 along = (line.to - line.from) / length, across = glm::cross(n, along);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = c[k] - line.from, b = c[(k + 1) % 3] - line.from;
+      const float da = glm::dot(across, a), db = glm::dot(across, b);
+      if (std::min(std::abs(da), std::abs(db)) <= kCutTolerance_m || (da > 0) == (db > 0)) continue;
+      const float at = da / (da - db), place = glm::dot(along, a + at * (b - a));
+      if (place < -kCutTolerance_m || place > length + kCutTolerance_m) continue;
+      const auto found = pieces_at_.find(edge_key(v, k));
+      if (found == pieces_at_.end()) return;  // of what moves
+      cut_edge(found->first, c[k] + at * (c[(k + 1) % 3] - c[k]));
+      return;
+    }
+  }
+
   Corners corners(const UVec3& v) const {
     return {scene_.positions[v.x], scene_.positions[v.y], scene_.positions[v.z]};
   }
-
-  bool is_wanted(const UVec3& v) const { return longest(v) > shortest_ && wanted_(corners(v)); }
 
   // The edge from corner k to the next.
   int longest_edge(const UVec3& v) const {
@@ -123,15 +174,16 @@ class Divider {
     }
   }
 
-  // Every piece that has the edge becomes two.
-  void cut_edge(const EdgeKey& key) {
+  // Every piece that has the edge becomes two, at its middle or, where it is given, at a place on it.
+  void cut_edge(const EdgeKey& edge, const std::optional<Vec3>& place = std::nullopt) {
+    const EdgeKey key = edge;
     const std::vector<std::uint32_t> sharing = pieces_at_[key];
     for (const std::uint32_t p : sharing) {
       if (pieces_[p].cut) continue;
       const UVec3 v = pieces_[p].vertex;
       for (int k = 0; k < 3; ++k) {
         if (!(edge_key(v, k) == key)) continue;
-        const std::uint32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3], m = middle(a, b);
+        const std::uint32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3], m = vertex_on(a, b, place);
         pieces_[p].cut = true;
         for (const UVec3& half : {UVec3(a, m, c), UVec3(m, b, c)}) {
           pieces_.push_back({half, pieces_[p].of, false});
@@ -143,31 +195,37 @@ class Divider {
     pieces_at_.erase(key);
   }
 
-  std::uint32_t middle(std::uint32_t a, std::uint32_t b) {
+  std::uint32_t vertex_on(std::uint32_t a, std::uint32_t b, const std::optional<Vec3>& place) {
     const auto [at, added] =
         middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(scene_.positions.size()));
     if (!added) return at->second;
+    const Vec3 edge = scene_.positions[b] - scene_.positions[a];
+    const float to = place ? glm::dot(*place - scene_.positions[a], edge) / glm::dot(edge, edge) : 0.5f;
+    const float from = 1 - to;
     const auto unit_or = [](const Vec3& v, const Vec3& otherwise) {
       const float length = glm::length(v);
       return length > 1e-6f ? v / length : otherwise;
     };
-    scene_.positions.push_back(0.5f * scene_.positions[a] + 0.5f * scene_.positions[b]);
-    scene_.normals.push_back(unit_or(scene_.normals[a] + scene_.normals[b], scene_.normals[a]));
-    scene_.uv0.push_back(0.5f * (scene_.uv0[a] + scene_.uv0[b]));
-    scene_.uv1.push_back(0.5f * (scene_.uv1[a] + scene_.uv1[b]));
-    if (!scene_.colors.empty()) scene_.colors.push_back(mean_color(scene_.colors[a], scene_.colors[b]));
+    scene_.positions.push_back(place ? *place : from * scene_.positions[a] + to * scene_.positions[b]);
+    scene_.normals.push_back(unit_or(from * scene_.normals[a] + to * scene_.normals[b], scene_.normals[a]));
+    scene_.uv0.push_back(from * scene_.uv0[a] + to * scene_.uv0[b]);
+    scene_.uv1.push_back(from * scene_.uv1[a] + to * scene_.uv1[b]);
+    if (!scene_.colors.empty()) scene_.colors.push_back(color_between(scene_.colors[a], scene_.colors[b], to));
     if (!scene_.tangents.empty()) {
       const Vec4 &ta = scene_.tangents[a], &tb = scene_.tangents[b];
-      scene_.tangents.push_back(Vec4(unit_or(Vec3(ta) + Vec3(tb), Vec3(ta)), ta.w == tb.w ? ta.w : 0));
+      scene_.tangents.push_back(Vec4(unit_or(from * Vec3(ta) + to * Vec3(tb), Vec3(ta)), ta.w == tb.w ? ta.w : 0));
     }
     vertex_surface_.push_back(vertex_surface_[a]);
     return at->second;
   }
 
-  static std::uint32_t mean_color(std::uint32_t a, std::uint32_t b) {
-    std::uint32_t mean = 0;
-    for (int shift = 0; shift < 32; shift += 8) mean |= (((a >> shift & 255u) + (b >> shift & 255u) + 1) / 2) << shift;
-    return mean;
+  static std::uint32_t color_between(std::uint32_t a, std::uint32_t b, float to) {
+    std::uint32_t color = 0;
+    for (int shift = 0; shift < 32; shift += 8) {
+      const auto from = static_cast<float>(a >> shift & 255u), other = static_cast<float>(b >> shift & 255u);
+      color |= static_cast<std::uint32_t>(from + to * (other - from) + 0.5f) << shift;
+    }
+    return color;
   }
 
   template <class T>
@@ -219,7 +277,6 @@ class Divider {
 
   Scene& scene_;
   float shortest_;
-  const std::function<bool(const Corners&)>& wanted_;
   std::vector<Piece> pieces_;
   std::unordered_map<EdgeKey, std::vector<std::uint32_t>, EdgeHash> pieces_at_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
@@ -234,7 +291,11 @@ class Divider {
 }  // namespace
 
 bool divide_triangles(Scene& scene, float shortest_m, const std::function<bool(const std::array<Vec3, 3>&)>& wanted) {
-  return Divider(scene, shortest_m, wanted).run();
+  return Divider(scene, shortest_m).divide(wanted);
+}
+
+bool cut_triangles(Scene& scene) {
+  return Divider(scene).cut();
 }
 
 }  // namespace oriel

@@ -1,4 +1,4 @@
-// Large triangles in pieces, so that what is near and what is far can be told apart.
+// Triangles in pieces: large ones, so that what is near and what is far can be told apart, and those under walls.
 #pragma once
 
 #include <functional>
@@ -11,5 +11,9 @@ namespace oriel {
 // wanted(corners) says so, and with them every triangle that shares such an edge (by the positions of its ends): no
 // gaps open between pieces. For a scene whose sides are not split yet (no twins). Returns whether any was cut.
 bool divide_triangles(Scene& scene, float shortest_m, const std::function<bool(const std::array<Vec3, 3>&)>& wanted);
+
+// Cuts triangles of still surfaces where one of Scene::cuts lies in their plane, along it; likewise without gaps.
+// Returns whether any was cut.
+bool cut_triangles(Scene& scene);
 
 }  // namespace oriel

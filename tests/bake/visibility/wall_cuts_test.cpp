@@ -1,0 +1,97 @@
+// Walls that stand on floors: found, cut along, and no chart spans them.
+#include "bake/visibility/wall_cuts.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "bake/atlas/atlas.h"
+#include "bake/visibility/divide.h"
+#include "tests/bake/support/scene_parts.h"
+
+namespace oriel {
+namespace {
+
+using test::SceneParts;
+
+std::vector<ChartCut> cuts_of(const Scene& scene) {
+  return find_wall_cuts(*Accel::build(scene), 1);
+}
+
+SceneParts floor_of(float half = 5) {
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0.5f)), {-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half});
+  return parts;
+}
+
+// Of one that runs along z.
+float x_of(const ChartCut& cut) {
+  EXPECT_NEAR(cut.from.x, cut.to.x, 1e-4);
+  return cut.from.x;
+}
+
+TEST(WallCuts, ASheetPartsTheFloor) {
+  SceneParts parts = floor_of();
+  SceneMaterial sheet;
+  sheet.double_sided = true;
+  parts.quad("sheet", parts.add(sheet), {1.3f, 0, 2}, {0, 0, -4}, {0, 2.5f, 0});
+  Scene scene = parts.finish();
+  scene.cuts = cuts_of(scene);
+  ASSERT_EQ(scene.cuts.size(), 1u);
+  EXPECT_NEAR(x_of(scene.cuts[0]), 1.3f, 1e-4);
+  EXPECT_NEAR(std::abs(scene.cuts[0].from.z - scene.cuts[0].to.z), 10, 1e-3) << "on to the ends of the floor";
+  EXPECT_TRUE(cut_triangles(scene));
+  double area = 0;
+  for (std::uint32_t t = 0; t < scene.surfaces[0].triangle_count; ++t) area += triangle_area(scene, t);
+  EXPECT_NEAR(area, 100, 1e-3);
+  Context context;
+  const Atlas atlas = *build_atlas(scene, {}, context);
+  std::array<std::set<std::uint32_t>, 2> charts;  // by side
+  for (std::uint32_t t = 0; t < scene.surfaces[0].triangle_count; ++t) {
+    bool left = false, right = false;
+    for (int k = 0; k < 3; ++k) {
+      const float x = scene.positions[scene.triangles[t][k]].x;
+      left |= x<1.3f - 1e-3f, right |= x> 1.3f + 1e-3f;
+    }
+    EXPECT_NE(left, right) << "a triangle on both sides";
+    charts[right ? 1 : 0].insert(atlas.chart[t]);
+  }
+  for (const std::uint32_t chart : charts[0]) EXPECT_FALSE(charts[1].contains(chart));
+}
+
+TEST(WallCuts, AThickWallHasOneLineUnderItsMiddle) {
+  for (const float thick : {0.01f, 0.1f, 0.3f}) {
+    SceneParts parts = floor_of();
+    // Into the floor and up, with a gap for a door.
+    parts.box("wall", parts.diffuse(Vec3(0.5f)), {2, -0.05f, -5}, {2 + thick, 2.5f, 1});
+    parts.box("wall", parts.diffuse(Vec3(0.5f)), {2, -0.05f, 2}, {2 + thick, 2.5f, 5});
+    const auto cuts = cuts_of(parts.finish());
+    ASSERT_EQ(cuts.size(), 1u) << thick;
+    EXPECT_NEAR(x_of(cuts[0]), 2 + 0.5f * thick, 2e-3) << thick;
+  }
+}
+
+TEST(WallCuts, RoomsAreCutNoFurtherThanTheirWalls) {
+  SceneParts parts = floor_of();
+  const std::uint32_t m = parts.diffuse(Vec3(0.5f));
+  parts.box("long", m, {0, 0, -5}, {0.1f, 2.5f, 5});
+  parts.box("across", m, {0.1f, 0, 1}, {5, 2.5f, 1.1f});
+  const auto cuts = cuts_of(parts.finish());
+  ASSERT_EQ(cuts.size(), 3u);
+  EXPECT_NEAR(x_of(cuts[0]), 0.05f, 2e-3);
+  EXPECT_NEAR(std::min(cuts[1].from.x, cuts[1].to.x), 0.05f, 2e-3) << "not into the other room";
+  EXPECT_NEAR(x_of(cuts[2]), 0.1f, 1e-4) << "upright, where the walls meet";
+}
+
+TEST(WallCuts, FurnitureThresholdsAndRimsAreNoWalls) {
+  SceneParts parts = floor_of();
+  const std::uint32_t m = parts.diffuse(Vec3(0.5f));
+  parts.box("bed", m, {-3, 0, -1}, {-2, 0.5f, 1});
+  parts.box("leg", m, {1, 0, 1}, {1.05f, 0.7f, 1.05f});
+  parts.box("threshold", m, {2, 0, -5}, {2.1f, 0.015f, 5});
+  parts.box("rim", m, {4.9f, 0, -5}, {5.1f, 2.5f, 5});
+  EXPECT_EQ(cuts_of(parts.finish()).size(), 0u);
+}
+
+}  // namespace
+}  // namespace oriel
