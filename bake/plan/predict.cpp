@@ -18,6 +18,9 @@ constexpr double kSlowPaths = 1.5;          // a ray of verification takes longe
 constexpr double kNominalError = 0.02;      // of pilots where time alone limits the work
 constexpr double kLeastAskedError = 1e-3;   // what a bake limited by time alone asks for
 
+constexpr double kMostPilot_s = 20;    // that a pilot takes: a plan is read before a bake, not instead of it
+constexpr double kMostOfTime = 0.25;   // of --time likewise
+
 // Of a map's bytes, what a pack stores: 0.27 of the gallery's radiance maps, 0.46 of the studio's surround maps.
 constexpr double kStoredShare = 0.35;
 
@@ -38,6 +41,7 @@ struct LightmapPilot {
   Atlas atlas;
   Radiosity radiosity;
   double texels = 0, seconds = 0;
+  bool ended = false;             // by its time
   double bytes = 0;               // of the lightmap in a pack
   std::uint64_t scene_bytes = 0;  // of a pack whose lightmap is black
 };
@@ -84,10 +88,14 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   ORIEL_TRY(pilot.atlas, build_atlas(in.prepared.scene(), coarse, context, in.prepared.demand));
   ORIEL_TRY(const auto texel_map, build_texel_map(pilot.atlas, context));
   const ElapsedTime clock;
+  RadiosityOptions options = pilot_options(in);
+  const double most_s = in.options.time_s > 0 ? std::min(kMostPilot_s, kMostOfTime * in.options.time_s) : kMostPilot_s;
+  options.left = options.left_of_all = [&clock, most_s] { return most_s - clock.spent(); };
   const Transport transport{*in.prepared.accel, in.lights, path_options(in.options)};
   const StageInputs inputs(context, SurfacesOf{in.prepared.scene()}, LightsOf{in.prepared.scene()},
                            LayoutOf{pilot.atlas}, transport.options.max_bounces);
-  ORIEL_TRY(pilot.radiosity, bake_radiosity({transport, pilot.atlas, texel_map}, pilot_options(in), context));
+  ORIEL_TRY(pilot.radiosity, bake_radiosity({transport, pilot.atlas, texel_map}, options, context));
+  pilot.ended = options.late();
   pilot.seconds = clock.spent();
   pilot.texels = texels_of(texel_map);
   ORIEL_TRY_VOID(weigh(in.prepared.scene(), pilot));
@@ -113,6 +121,8 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
   const bool limited = report.relative_error > kMissed * pilot_options(in).error && pilot_options(in).error > 0;
   double rays = limited ? static_cast<double>(report.rays) * texels / n[1]
                         : at_all([](const LightmapPilot& p) { return static_cast<double>(p.radiosity.report.rays); });
+  // Noise of a pilot that its time ended falls with rays.
+  if (limited && fine.ended) rays *= std::pow(report.relative_error / pilot_options(in).error, 2);
   // Where refinement ends for its rays, squared errors stay larger by what was cut.
   const double first = static_cast<double>(report.first_rays) * texels / n[1];
   const double cut = std::max(1.0, (rays - first) / most_refining_rays(in.options.radiosity, texels));
@@ -125,7 +135,7 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
   const double squares = at_all([](const LightmapPilot& p) {
     return p.texels * p.radiosity.report.relative_error * p.radiosity.report.relative_error;
   });
-  const double reached = std::sqrt(squares / std::max(1.0, texels));
+  const double reached = fine.ended ? 0 : std::sqrt(squares / std::max(1.0, texels));
   c.error = std::max(reached, pilot_options(in).error) * std::sqrt(cut);
   return c;
 }

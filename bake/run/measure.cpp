@@ -73,7 +73,9 @@ Result<GridSpec> parse_grid(const std::string& text) {
   ORIEL_TRY(grid.spacing_m, parse_length(text.substr(first + 1, second - first - 1)));
   const std::string height = text.substr(second + 1);
   grid.height_m = 0;
-  if (height != "0") {
+  // 0, in any unit, is on the face itself; a length is more than that.
+  const bool zero = height == "0" || height == "0m" || height == "0cm" || height == "0mm";
+  if (!zero) {
     ORIEL_TRY(grid.height_m, parse_length(height));
   }
   return grid;

@@ -245,6 +245,8 @@ const char* name_of(Cause cause) {
   switch (cause) {
     case Cause::kUnlit:
       return "unlit";
+    case Cause::kBlack:
+      return "black";
     case Cause::kCoincident:
       return "coincident";
     case Cause::kInside:
@@ -290,9 +292,16 @@ std::optional<Why> why_at(const Pack& pack, const MeshRays& rays, const Vec3& pl
          "turn its faces over, or make the material double-sided and bake again"});
   if (why.page < 0) {
     why.reasons.push_back(
-        {Cause::kUnlit, material.name,
-         fmt::format("'{}' has no lightmap: its material is unlit and shows its colour as it is", part.name),
-         "take KHR_materials_unlit from the material, and bake again"});
+        material.unlit
+            ? Reason{Cause::kUnlit, material.name,
+                     fmt::format("'{}' has no lightmap: its material is unlit and shows its colour as it is",
+                                 part.name),
+                     "take KHR_materials_unlit from the material, and bake again"}
+            : Reason{
+                  Cause::kBlack, material.name,
+                  fmt::format("'{}' has no lightmap: '{}' has no diffuse colour, so light leaves it as dark as it is",
+                              part.name, material.name),
+                  "a base colour above black, less metal or less transmission, and bake again"});
     return why;
   }
   const LightmapPage* page = page_of(static_cast<std::uint32_t>(why.page));

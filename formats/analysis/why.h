@@ -13,7 +13,8 @@
 namespace oriel {
 
 enum class Cause {
-  kUnlit,       // nothing was baked for it
+  kUnlit,       // nothing was baked for it: it shows its colour
+  kBlack,       // nothing was baked for it: it has no diffuse reflection
   kCoincident,  // another surface lies in the same place
   kInside,      // inside other geometry
   kCovered,     // something lies on it

@@ -28,9 +28,9 @@ class WhyTest : public ::testing::Test {
     }
     const auto from = static_cast<std::uint32_t>(mesh.indices.size());
     for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
-    const bool unlit = pack_.materials[material].unlit;
-    mesh.parts.push_back({name, from, 6, material, unlit ? -1 : static_cast<std::int32_t>(pack_.lightmaps.size())});
-    if (unlit) return 0;
+    const bool bare = pack_.materials[material].unlit || pack_.materials[material].name == "soot";
+    mesh.parts.push_back({name, from, 6, material, bare ? -1 : static_cast<std::int32_t>(pack_.lightmaps.size())});
+    if (bare) return 0;
     pack_.lightmaps.push_back({8, 8, std::vector<Vec3>(64, Vec3(100)), std::vector<Vec3>(64, Vec3(1)),
                                std::vector<TexelState>(64, TexelState::kValid)});
     // Dark beside the rest of the page: its first texel alone.
@@ -140,6 +140,15 @@ TEST_F(WhyTest, UnlitMaterials) {
   const Reason* r = reason(Cause::kUnlit);
   ASSERT_TRUE(r) << said();
   EXPECT_EQ(r->object, "sign");
+}
+
+TEST_F(WhyTest, BlackMattMaterialsAreNotUnlit) {
+  pack_.materials.emplace_back().name = "soot";
+  add("chimney", {-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 0, static_cast<std::uint32_t>(pack_.materials.size() - 1));
+  const Reason* r = reason(Cause::kBlack);
+  ASSERT_TRUE(r) << said();
+  EXPECT_EQ(r->object, "soot");
+  EXPECT_EQ(why_->reasons.size(), 1u);
 }
 
 TEST_F(WhyTest, FilledFromNeighbours) {
