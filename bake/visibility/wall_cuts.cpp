@@ -9,18 +9,15 @@ namespace oriel {
 namespace {
 
 // Metres, for people of usual size.
-constexpr float kLift = 0.02f;                  // over the surface: carpets and thresholds are no walls
-constexpr float kLeastWall = 0.5f;              // its length; legs of furniture are no walls
-constexpr float kLeastPiece = 0.05f;            // of a wall's foot, of one triangle
-constexpr float kProbes = 0.25f;                // between probes along a wall
-constexpr float kNarrow = 0.15f;                // strips beside a line, at least
-constexpr float kSameLine = 0.05f;              // between the lines of a wall's two faces
-constexpr float kStraight = 0.003f;             // off a line
+constexpr float kLift = 0.02f;       // over the surface: carpets and thresholds are no walls
+constexpr float kLeastWall = 0.5f;   // its length; legs of furniture are no walls
+constexpr float kNarrow = 0.15f;     // strips beside a line, at least; between probes along a wall
+constexpr float kSameWall = 0.05f;   // between the lines of a wall's two faces; a piece of a wall's foot, at least
+constexpr float kStraight = 0.003f;  // off a line
 constexpr std::array kReach{0.1f, 0.2f, 0.4f};  // from a wall's face to open surface on either side
 
-constexpr float kSameAngle = 0.01f;  // rad
-constexpr std::uint32_t kBlock = 64;
-constexpr std::size_t kMostLines = 256, kMostCells = 128;  // of a flat surface
+constexpr std::uint32_t kBlock = 64;     // triangles that share their bounds
+constexpr std::size_t kMostLines = 256;  // of a flat surface
 
 // A part of a surface in one plane.
 struct FlatPart {
@@ -51,7 +48,7 @@ struct WallLine {
     length += std::abs(to - from);
   }
   bool runs_along(const WallLine& other, float distance) const {
-    return std::abs(glm::dot(left_of(along), other.along)) < kSameAngle &&
+    return std::abs(glm::dot(left_of(along), other.along)) < kStraight / kLeastWall &&
            std::abs(off(other.on + 0.5f * (other.first + other.last) * other.along)) < distance;
   }
 };
@@ -145,7 +142,7 @@ class WallFinder {
       if ((height[k] > 0) == (height[next] > 0)) continue;
       if (ends < 2) foot[ends++] = part.flat(glm::mix(c[k], c[next], height[k] / (height[k] - height[next])));
     }
-    if (ends < 2 || glm::distance(foot[0], foot[1]) < kLeastPiece * scale_) return;
+    if (ends < 2 || glm::distance(foot[0], foot[1]) < kSameWall * scale_) return;
     const Vec2 lower = glm::min(foot[0], foot[1]), upper = glm::max(foot[0], foot[1]);
     if (glm::any(glm::lessThan(upper, part.lower)) || glm::any(glm::greaterThan(lower, part.upper))) return;
     found.push_back(foot);
@@ -157,7 +154,7 @@ class WallFinder {
     for (const auto& [a, b] : feet(part)) {
       const Vec2 along = glm::normalize(b - a);
       const auto on = std::ranges::find_if(found, [&](const WallLine& line) {
-        return std::abs(glm::dot(left_of(line.along), along)) < kSameAngle &&
+        return std::abs(glm::dot(left_of(line.along), along)) < kStraight / kLeastWall &&
                std::max(std::abs(line.off(a)), std::abs(line.off(b))) < kStraight * scale_;
       });
       if (on != found.end()) {
@@ -207,7 +204,7 @@ class WallFinder {
     };
     std::vector<WallProbe> probes;
     for (const Vec2& piece : line.pieces) {
-      const int count = static_cast<int>(std::min(64.0f, std::ceil((piece.y - piece.x) / (kProbes * scale_))));
+      const int count = static_cast<int>(std::min(64.0f, std::ceil((piece.y - piece.x) / (kNarrow * scale_))));
       const float step = (piece.y - piece.x) / static_cast<float>(count);
       for (int k = 0; k < count; ++k) {
         const float from = piece.x + static_cast<float>(k) * step;
@@ -234,7 +231,7 @@ class WallFinder {
       auto middle = wall(part, line);
       if (!middle) continue;
       const auto other_face = std::ranges::find_if(
-          found, [&](const WallLine& other) { return other.runs_along(*middle, kSameLine * scale_); });
+          found, [&](const WallLine& other) { return other.runs_along(*middle, kSameWall * scale_); });
       if (other_face == found.end()) {
         found.push_back(std::move(*middle));
       } else {
@@ -255,7 +252,7 @@ class WallFinder {
         {part.lower, Vec2(part.upper.x, part.lower.y), part.upper, Vec2(part.lower.x, part.upper.y)}};
     for (const WallLine& wall : walls(part)) {
       const std::size_t count = cells.size();
-      for (std::size_t c = 0; c < count && cells.size() < kMostCells; ++c) {
+      for (std::size_t c = 0; c < count; ++c) {
         Cell left, right;
         std::vector<float> crossings;
         float most_left = 0, most_right = 0;

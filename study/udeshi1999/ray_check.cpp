@@ -52,6 +52,12 @@ void compare(const SeenPoints& seen, const std::vector<Vec4>& rays, const std::v
     }
 }
 
+// Volumes are of facets: a rounded body's facet that is turned away from the light lies in its own.
+void leave_out_turned_away(const SeenPoints& seen, const LampPoint& lamp, std::vector<Vec4>& rays) {
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (glm::dot(Vec3(seen.face[i]), Vec3(lamp.place) - lamp.place.w * Vec3(seen.place[i])) <= 0) rays[i] = Vec4(0);
+}
+
 }  // namespace
 
 Result<RayCheck> check_by_rays(HybridRenderer& renderer, const PreviewScene& scene, std::span<const LampPoint> lamps,
@@ -65,7 +71,8 @@ Result<RayCheck> check_by_rays(HybridRenderer& renderer, const PreviewScene& sce
     std::vector<std::uint8_t> counts = renderer.count_volumes(point, cap_rays);
     if (forget_eye)
       for (std::uint8_t& count : counts) count = static_cast<std::uint8_t>(count - renderer.volumes_around_eye(point));
-    ORIEL_TRY(const std::vector<Vec4> rays, lamps_by_rays(seen, {&point, 1}, *scene.accel, {}, context));
+    ORIEL_TRY(std::vector<Vec4> rays, lamps_by_rays(seen, {&point, 1}, *scene.accel, {}, context));
+    leave_out_turned_away(seen, point, rays);
     compare(seen, rays, counts, out);
     for (std::size_t i = 0; i < counts.size(); ++i) {
       if (!(rays[i].w > 0)) continue;

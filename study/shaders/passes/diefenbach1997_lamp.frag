@@ -20,7 +20,7 @@ vec3 irradiance_here(vec3 tilted) {
   if (dot(face, u_eye.xyz - v_position * u_eye.w) < 0.0) face = -face;
   if (!gl_FrontFacing) return vec3(0.0);
   vec3 normal = tilted * inversesqrt(max(dot(tilted, tilted), 1e-37));
-  vec3 light = u_intensity * (lux * incidence(normal, face, towards));
+  vec3 light = u_intensity * (lux * (u_cosine ? incidence(normal, face, towards) : punctual_incidence(normal, face, towards)));
   for (int i = 0; i < u_mirrors; ++i)
     light *= reflectance_from_table(u_reflectance, int(u_mirror_tables[i].x), int(u_mirror_tables[i].y),
                                     abs(dot(u_mirror_normals[i].xyz, towards)));

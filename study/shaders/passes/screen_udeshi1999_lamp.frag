@@ -22,8 +22,9 @@ void main() {
   vec3 to = u_light.xyz - place.xyz * u_light.w;
   float d2 = dot(to, to);
   vec3 direction = to * inversesqrt(max(d2, 1e-30));
-  float light = incidence(texelFetch(u_normal, at, 0).xyz, texelFetch(u_face, at, 0).xyz, direction);
-  if (u_kind == 0) light *= max(-dot(u_front, direction), 0.0);
+  vec3 normal = texelFetch(u_normal, at, 0).xyz, face = texelFetch(u_face, at, 0).xyz;
+  float light = u_kind == 0 ? incidence(normal, face, direction) * max(-dot(u_front, direction), 0.0)
+                            : punctual_incidence(normal, face, direction);
   if (u_kind == 1) light *= intensity(-direction);
   if (u_kind != 2) light /= max(d2, 1e-30);
   o_light = vec4(light * u_power, 1.0);
