@@ -18,8 +18,8 @@ constexpr double kSlowPaths = 1.5;          // a ray of verification takes longe
 constexpr double kNominalError = 0.02;      // of pilots where time alone limits the work
 constexpr double kLeastAskedError = 1e-3;   // what a bake limited by time alone asks for
 
-constexpr double kMostPilot_s = 20;    // that a pilot takes: a plan is read before a bake, not instead of it
-constexpr double kMostOfTime = 0.25;   // of --time likewise
+constexpr double kMostPilot_s = 20;   // that a pilot takes: a plan is read before a bake, not instead of it
+constexpr double kMostOfTime = 0.25;  // of --time likewise
 
 // Of a map's bytes, what a pack stores: 0.27 of the gallery's radiance maps, 0.46 of the studio's surround maps.
 constexpr double kStoredShare = 0.35;
