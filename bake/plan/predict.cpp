@@ -91,11 +91,12 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   RadiosityOptions options = pilot_options(in);
   const double most_s = in.options.time_s > 0 ? std::min(kMostPilot_s, kMostOfTime * in.options.time_s) : kMostPilot_s;
   options.left = options.left_of_all = [&clock, most_s] { return most_s - clock.spent(); };
+  options.enough = [&options] { return options.late(); };
   const Transport transport{*in.prepared.accel, in.lights, path_options(in.options)};
   const StageInputs inputs(context, SurfacesOf{in.prepared.scene()}, LightsOf{in.prepared.scene()},
                            LayoutOf{pilot.atlas}, transport.options.max_bounces);
   ORIEL_TRY(pilot.radiosity, bake_radiosity({transport, pilot.atlas, texel_map}, options, context));
-  pilot.ended = options.late();
+  pilot.ended = pilot.radiosity.report.ended_early;
   pilot.seconds = clock.spent();
   pilot.texels = texels_of(texel_map);
   ORIEL_TRY_VOID(weigh(in.prepared.scene(), pilot));

@@ -13,13 +13,14 @@ float height_of_rounded(const Scene& scene, std::uint32_t triangle, const Vec3& 
   const auto corner = [&](int i) { return scene.positions[t[i % 3]]; };
   const Vec3 twice_area = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
   const float side = glm::dot(twice_area, geometric_normal);  // twice the area, < 0 for the back
+  if (!(std::abs(side) > 0)) return 0;
   float height = 0;
   for (int i = 0; i < 3; ++i) {
     const Vec3 normal = std::copysign(1.0f, side) * scene.normals[t[i]];
     const float cosine = glm::dot(normal, geometric_normal);
     if (cosine < kRound) return 0;
     const float weight = glm::dot(glm::cross(corner(i + 1) - point, corner(i + 2) - point), geometric_normal) / side;
-    height -= weight * std::min(0.0f, glm::dot(point - corner(i), normal)) * cosine;
+    height -= std::clamp(weight, 0.0f, 1.0f) * std::min(0.0f, glm::dot(point - corner(i), normal)) * cosine;
   }
   return height > 0 ? height : 0;
 }

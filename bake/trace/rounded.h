@@ -35,6 +35,11 @@ class ShadowLegs {
     if (glm::dot(r.geometric_normal, ray.direction) > 0) return;
     rays_[1] = ray;
     rays_[1].origin = r.position + r.rounded * r.geometric_normal;
+    if (ray.max_distance < Ray().max_distance) {  // not from afar: it ends at the same place
+      const Vec3 to = ray.max_distance * ray.direction - r.rounded * r.geometric_normal;
+      rays_[1].max_distance = glm::length(to);
+      rays_[1].direction = to / rays_[1].max_distance;
+    }
     rays_[0].direction = r.geometric_normal;
     rays_[0].max_distance = r.rounded;
     count_ = 2;

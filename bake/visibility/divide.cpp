@@ -111,7 +111,7 @@ class Divider {
       const float at = da / (da - db), place = glm::dot(along, a + at * (b - a));
       if (place < -kCutTolerance_m || place > length + kCutTolerance_m) continue;
       const auto found = pieces_at_.find(edge_key(v, k));
-      if (found == pieces_at_.end()) return;  // of what moves
+      if (found == pieces_at_.end()) continue;  // of what moves
       cut_edge(found->first, c[k] + at * (c[(k + 1) % 3] - c[k]));
       return;
     }

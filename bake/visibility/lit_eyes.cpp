@@ -22,8 +22,11 @@ constexpr std::uint32_t kBodyPoints = 2048;   // of a scene that may be a body a
 constexpr std::array<float, 2> kAround{1.2f, 2.2f};  // of the scene's radius: how far eyes are from its middle
 
 // By eye: the mean luminance around it, cd/m².
-Result<std::vector<double>> light_around(const Transport& t, std::span<const Vec3> eyes, std::uint64_t stream,
+Result<std::vector<double>> light_around(const Transport& transport, std::span<const Vec3> eyes, std::uint64_t stream,
                                          Context& context) {
+  // Whether light comes at all is known long before the last bounce of a white room.
+  Transport t = transport;
+  t.options.max_bounces = std::min(t.options.max_bounces, 32);
   std::vector<double> found(eyes.size());
   ORIEL_TRY_VOID(parallel_for(context, "", eyes.size(), [&](std::size_t i) {
     std::uint64_t rays = 0;

@@ -62,7 +62,7 @@ std::optional<Shone> shine(const LampPoint& lamp, const EyePoint& at, const Scen
   if (!(share > 0)) return std::nullopt;
   if (lamp.light != ~0u) out.light = lamp.share * punctual_intensity(scene, scene.lights[lamp.light], -direction);
   out.light *= share;
-  if (!flat) out.ray = ShadowLegs(at.at, out.ray).rays().back();
+  out.ray = ShadowLegs(at.at, out.ray).rays().back();
   return out;
 }
 

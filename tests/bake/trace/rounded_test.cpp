@@ -58,6 +58,23 @@ TEST(Rounded, BodiesOfFewFacetsAreLitByTheirNormals) {
   }
 }
 
+TEST(Rounded, ALampIsNotHiddenByItself) {
+  test::SceneParts parts;
+  parts.sphere("ball", parts.diffuse(Vec3(0)), {0, 0, 0}, 0.4f, 1);
+  parts.quad("panel", parts.diffuse(Vec3(0), Vec3(100)), {-0.5f, 0.45f, -0.5f}, {1, 0, 0}, {0, 0, 1});
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  for (std::uint32_t t = 0; t < 80; ++t) {
+    const Receiver r = receiver_of(point_on_side(scene, t, Vec2(0.3f)));
+    const Vec3 to = Vec3(0.45f, 0.4499f, 0.45f) - r.position;
+    const float distance = glm::length(to);
+    if (glm::dot(r.geometric_normal, to) >= 0 || glm::dot(r.normal, to) <= 0) continue;
+    std::uint64_t rays = 0;
+    const ShadowLegs legs(r, {r.position, to / distance, distance});
+    EXPECT_EQ(accel.transmittance_of_all(legs.rays(), rays), Vec3(1)) << t;
+  }
+}
+
 TEST(Rounded, WhatIsCloseStillShades) {
   test::SceneParts parts;
   parts.sphere("ball", parts.diffuse(Vec3(0)), {0, 0, 0}, 0.4f, 1);
