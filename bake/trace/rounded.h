@@ -9,10 +9,9 @@
 
 namespace oriel {
 
-// How far the rounded surface lies over a point of a triangle, m along the
-// geometric normal of the side meant (Hanika 2021, "Hacking the
-// shadow terminator", Ray Tracing Gems II). 0 where the facet is flat, hollow, or turned by so much from its normals
-// that they smooth an edge that is one.
+// How far the rounded surface lies over a point of a triangle, m along the geometric normal of the side meant (Hanika
+// 2021, "Hacking the shadow terminator", Ray Tracing Gems II). 0 where the facet is flat, hollow, or turned by so much
+// from its normals that they smooth an edge that is one.
 float height_of_rounded(const Scene& scene, std::uint32_t triangle, const Vec3& point, const Vec3& geometric_normal);
 
 // What receives light there; rays start at its position.
