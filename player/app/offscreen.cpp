@@ -42,7 +42,7 @@ class Studio {
     options_.timed = !arguments.stats.empty();
     options_.samples = samples_of_picture(arguments);
     if (arguments.quality == Quality::kFast) {
-      options_ = coarse_options(options_, false);
+      options_ = coarse_options(options_);
       scene.make_fewer();
     }
     session_.shown_ev100 = arguments.ev100.value_or(0.0f);

@@ -18,23 +18,11 @@ bool has_storage() {
   return !epoxy_is_desktop_gl() || epoxy_gl_version() >= 42 || epoxy_has_gl_extension("GL_ARB_texture_storage");
 }
 
-// As much of it as the device does.
-void set_anisotropy(GLenum target, float anisotropy) {
-  if (!(epoxy_is_desktop_gl() && epoxy_gl_version() >= 46) &&
-      !epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic") &&
-      !epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
-    return;
-  GLfloat most = 1;
-  glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &most);
-  glTexParameterf(target, GL_TEXTURE_MAX_ANISOTROPY, std::min(anisotropy, most));
-}
-
 void set_sampling(GLenum target, const TextureOptions& options) {
   glTexParameteri(target, GL_TEXTURE_BASE_LEVEL, 0);
   glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, options.levels - 1);
   glTexParameteri(target, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(options.min_filter));
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(options.mag_filter));
-  if (options.anisotropy > 1) set_anisotropy(target, options.anisotropy);
   if (options.compare) glTexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(target, GL_TEXTURE_WRAP_S, static_cast<GLint>(options.wrap_s));
   glTexParameteri(target, GL_TEXTURE_WRAP_T, static_cast<GLint>(options.wrap_t));
@@ -44,7 +32,7 @@ void set_sampling(GLenum target, const TextureOptions& options) {
 
 Texture2d::Texture2d(const TextureFormat& format, int width, int height, const void* pixels,
                      const TextureOptions& options)
-    : format_(format), width_(width), height_(height), levels_(options.levels), anisotropy_(options.anisotropy) {
+    : format_(format), width_(width), height_(height), levels_(options.levels) {
   GLuint name = 0;
   glGenTextures(1, &name);
   handle_ = Handle<ObjectKind::kTexture>(name);

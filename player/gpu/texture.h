@@ -41,7 +41,6 @@ struct TextureOptions {
   GLenum wrap_s = GL_CLAMP_TO_EDGE;
   GLenum wrap_t = GL_CLAMP_TO_EDGE;
   int levels = 1;             // mip levels that are allocated
-  float anisotropy = 1;       // at most so many looks along what a pixel sees slanted, where the device can
   bool compare = false;       // depth: a lookup says whether its reference is nearer or as near
   bool make_mipmaps = false;  // fill the levels from level 0
 };
@@ -71,7 +70,6 @@ class Texture2d {
   Handle<ObjectKind::kTexture> handle_;
   TextureFormat format_;
   int width_ = 0, height_ = 0, levels_ = 1;
-  float anisotropy_ = 1;
   std::size_t bytes_ = 0;
 };
 

@@ -11,9 +11,6 @@
 namespace oriel {
 namespace {
 
-// Without it floors and long walls lose their pattern a few metres away: a pixel sees much more along than across.
-constexpr float kAnisotropy = 8;
-
 GLenum gl_wrap(Wrap wrap) {
   switch (wrap) {
     case Wrap::kRepeat:
@@ -36,7 +33,6 @@ TextureData mipmapped(const Texture& texture, const gpu::TextureFormat& format,
   out.options.levels = static_cast<int>(levels.size() - left_out);
   out.options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
   out.options.mag_filter = texture.nearest ? GL_NEAREST : GL_LINEAR;
-  if (!texture.nearest) out.options.anisotropy = kAnisotropy;
   out.options.wrap_s = gl_wrap(texture.wrap_s);
   out.options.wrap_t = gl_wrap(texture.wrap_t);
   for (std::size_t i = left_out; i < levels.size(); ++i) {

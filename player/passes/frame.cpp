@@ -164,7 +164,9 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
   const std::vector<PlacedMover> mirrored = in_mirrors(scene, options);
   if (extension) ORIEL_TRY_VOID(extension->begin(context, movers));
   const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored, glass_pass_, extension};
-  const ReflectionTarget target{&*frame_};
+  ReflectionTarget target{&*frame_};
+  target.budget_ms = options.image_budget_ms != kBudgetOfDevice ? options.image_budget_ms
+                                                                : image_budget_ms(device_.renderer, options.coarse);
   ReflectionMarks marks;
   ORIEL_TRY(const std::vector<MarkedReflector> marked,
             clock_.time(Pass::kMask, [&] { return reflections_.draw_masks(context, target, marks); }));

@@ -1,7 +1,7 @@
 #include "player/passes/reflection_renderer.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "player/passes/holes.h"
 #include "player/passes/mirrored_view.h"
@@ -63,6 +63,15 @@ bool marches(Reflections way) {
   return way == Reflections::kMarch || way == Reflections::kChosen;
 }
 
+bool blurs(const GpuKernel& kernel, const FrameOptions& options) {
+  return kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
+}
+
+// Of a reflector in an image.
+bool shows_least(const MarkedReflector& m) {
+  return m.worth * share_of_picture(m.screen) < kLeastShown;
+}
+
 template <class Draw>
 decltype(auto) timed(PassClock* clock, Pass pass, const Draw& draw) {
   return clock != nullptr ? clock->time(pass, draw) : draw();
@@ -73,6 +82,7 @@ decltype(auto) timed(PassClock* clock, Pass pass, const Draw& draw) {
 Result<ReflectionRenderer> ReflectionRenderer::create(const gpu::Device& device) {
   ReflectionRenderer out;
   out.device_ = device;
+  out.prices_ = image_prices(device.renderer);
   ORIEL_TRY(out.reflector_pass_, ReflectorPass::create(device.dialect));
   ORIEL_TRY(out.march_pass_, MarchPass::create(device.dialect));
   ORIEL_TRY(out.mesh_pass_, MeshPass::create(device));
@@ -96,39 +106,86 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
     if (eye.z <= (view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
     MarkedReflector marked{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0,
                            kMaskQueries * out.size(), false};
-    if (marked.screen.empty ||
-        (options.few_reflections && target.share * share_of_picture(marked.screen) < kLargeShare))
-      continue;
-    const bool see_through = scene.is_transparent(reflector.material);
+    if (marked.screen.empty) continue;
     const float left = target.reflectance * reflectance_of(scene.pack(), reflector.material);
-    marked.worth = target.frame != nullptr ? std::numeric_limits<float>::infinity() : left * target.share;
-    if (target.frame == nullptr && !worth_an_image(context, target, reflector, left)) continue;
-    if (marked.worth * share_of_picture(marked.screen) < kLeastShown) continue;
+    marked.worth = left * target.share;
+    if (target.frame == nullptr && (!worth_an_image(context, target, reflector, left) || shows_least(marked))) continue;
     if (maps) {
       ORIEL_TRY(const bool shows, scene.may_show_maps(reflector));
       marked.waits = !shows;
     }
-    if (!see_through && marks.materials.size() + 1 >= kMoverBits) continue;  // more than the stencil counts
-    if (!see_through && !marked.waits) {
-      marks.materials.push_back(reflector.material);
-      marked.value = static_cast<GLint>(marks.materials.size());
-    }
     while (queries_.size() < marked.query + kMaskQueries) queries_.push_back(gpu::make_query());
-    const GLuint mark = marked.waits ? 0 : see_through ? kSeeThroughBit : static_cast<GLuint>(marked.value);
-    reflector_pass_.draw_mask(context, reflector, marked.screen, mark,
-                              std::span(queries_).subspan(marked.query, kMaskQueries));
+    reflector_pass_.ask_visible(context, reflector, marked.screen,
+                                std::span(queries_).subspan(marked.query, kMaskQueries));
     out.push_back(marked);
   }
   for (MarkedReflector& m : out) {
     m.screen = ReflectorPass::visible_part(m.screen, view, std::span(queries_).subspan(m.query, kMaskQueries));
     if (m.waits && !m.screen.empty) scene.want_maps(*m.reflector);
   }
-  std::erase_if(out, [](const MarkedReflector& m) {
-    return m.screen.empty || m.waits || m.worth * share_of_picture(m.screen) < kLeastShown;
+  std::erase_if(out, [&](const MarkedReflector& m) {
+    return m.screen.empty || m.waits || (target.frame == nullptr && shows_least(m));
   });
-  for (const MarkedReflector& m : out)
-    if (m.value > 0) marks.reflective.insert(m.reflector->material);
+  afford(context, target, out);
+  std::erase_if(out, [&](MarkedReflector& m) {
+    const std::uint32_t material = m.reflector->material;
+    const bool see_through = scene.is_transparent(material);
+    if (!see_through && marks.materials.size() + 1 >= kMoverBits) return true;  // more than the stencil counts
+    if (!see_through) {
+      marks.materials.push_back(material);
+      marks.reflective.insert(material);
+      m.value = static_cast<GLint>(marks.materials.size());
+    }
+    reflector_pass_.draw_mask(context, *m.reflector, see_through ? kSeeThroughBit : static_cast<GLuint>(m.value));
+    return false;
+  });
   return out;
+}
+
+ImageRect ReflectionRenderer::rect_of(const FrameContext& context, const MarkedReflector& marked) const {
+  const auto& [scene, view, options, stats] = context;
+  const GpuKernel& kernel = scene.kernel(marked.reflector->material, options.coarse);
+  return choose_image(marked.screen, blurs(kernel, options) ? kernel.median : 0.0f, view, device_.texture_size,
+                      options.coarse);
+}
+
+void ReflectionRenderer::afford(const FrameContext& context, const ReflectionTarget& target,
+                                std::vector<MarkedReflector>& found) {
+  const auto& [scene, view, options, stats] = context;
+  if (std::isinf(target.budget_ms)) {
+    for (MarkedReflector& m : found) m.budget_ms = target.budget_ms;
+    return;
+  }
+  std::vector<PricedImage> images;
+  for (const MarkedReflector& m : found) {
+    const ImageRect rect = rect_of(context, m);
+    const float share = target.share * share_of_picture(m.screen);
+    const Material& material = scene.pack().materials[m.reflector->material];
+    std::uint64_t triangles = 0, parts = 0;
+    if (!shows_maps(*m.reflector, options)) {
+      for (const DrawBatch& batch :
+           batches_in(context, target, *m.reflector, mirrored_view(scene, *m.reflector, view, rect))) {
+        ++parts;
+        for (const std::int32_t count : batch.counts) triangles += static_cast<std::uint64_t>(count) / 3;
+      }
+    }
+    const bool mirror = reflectance_of(scene.pack(), m.reflector->material) >= kMirroring;
+    images.push_back({m.worth * share_of_picture(m.screen) * (1 - material.roughness),
+                      prices_.of(parts, triangles, std::uint64_t(rect.width) * std::uint64_t(rect.height)),
+                      target.frame != nullptr && mirror && share >= kLargeShare});
+  }
+  const std::vector<ImageAllowance> allowed = afford_images(images, target.budget_ms);
+  std::size_t i = 0;
+  std::erase_if(found, [&](MarkedReflector& m) {
+    m.budget_ms = allowed[i].within_ms;
+    return !allowed[i++].drawn;
+  });
+}
+
+std::vector<DrawBatch> ReflectionRenderer::batches_in(const FrameContext& context, const ReflectionTarget& target,
+                                                      const GpuReflector& reflector, const View& mirrored) {
+  return visible_batches(context.scene.opaque(), make_frustum(mirrored.clip_from_pack),
+                         sets_hold(context, target) ? reflector.seen : std::nullopt);
 }
 
 Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarget& target,
@@ -146,14 +203,13 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
     if (!there) return {};  // another reflector's took their room
   }
   const GpuKernel& kernel = scene.kernel(reflector.material, options.coarse);
-  const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
-  const ImageRect rect =
-      choose_image(marked.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size, options.coarse);
+  const bool blurred = blurs(kernel, options);
+  const ImageRect rect = rect_of(work.context, marked);
   const auto level = static_cast<std::size_t>(target.mirrors);
   if (images_.size() <= level) images_.resize(level + 1);
   const bool halves = halves_ && (!maps || scene.fit_halves(reflector));
   ORIEL_TRY_VOID(ensure_image_target(images_[level], rect.width, rect.height, device_.texture_size, halves));
-  const ReflectedImage image{reflector, kernel, rect, *images_[level], blurs, maps};
+  const ReflectedImage image{reflector, kernel, rect, *images_[level], blurred, maps};
   stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
   const bool counted = options.count_holes && marked.value > 0 && target.frame != nullptr;
   if (counted && !kernel.blurs() && maps && marches(options.reflections)) {
@@ -169,18 +225,18 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
     stats.holes += count.counted;
   }
   const gpu::Texture2d& depth = target.frame != nullptr ? target.frame->depth : target.image->depth;
-  if (blurs && !maps) {
+  if (blurred && !maps) {
     const bool whole = !reflector.seen || !sets_hold(work.context, target);
     timed(clock, Pass::kFill, [&] { convolve_pass_.cut(work.context, image, depth, whole); });
   }
-  if (maps || blurs)
+  if (maps || blurred)
     timed(clock, Pass::kFill, [&] {
       const auto holes = maps ? FillPass::Holes::kHidden : FillPass::Holes::kBeside;
-      fill_pass_.draw({rect, image.target, holes, blurs}, stats);
+      fill_pass_.draw({rect, image.target, holes, blurred}, stats);
     });
   if (rect.coarse > 1) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw(work.context, image); });
   target.bind(view);
-  timed(clock, blurs ? Pass::kConvolve : Pass::kCompose, [&] { compose(work.context, target, marked, image); });
+  timed(clock, blurred ? Pass::kConvolve : Pass::kCompose, [&] { compose(work.context, target, marked, image); });
   const GLint value = target.frame != nullptr ? marked.value : kAdded;
   timed(clock, Pass::kEmitters, [&] { reflector_pass_.draw_emitters(work.context, reflector, value); });
   ++stats.reflectors;
@@ -201,7 +257,7 @@ void ReflectionRenderer::compose(const FrameContext& context, const ReflectionTa
 
 Status ReflectionRenderer::draw_image(const ReflectionWork& work, const ReflectionTarget& target,
                                       const MarkedReflector& marked, const ReflectedImage& image) {
-  if (!image.has_holes) return draw_mirrored(work, target, image);
+  if (!image.has_holes) return draw_mirrored(work, target, marked, image);
   const FrameContext& context = work.context;
   const ShownPixels shown{target.frame != nullptr ? &target.frame->framebuffer : nullptr,
                           target.frame != nullptr ? marked.value : 0, kReflectorBits};
@@ -225,7 +281,7 @@ bool ReflectionRenderer::sets_hold(const FrameContext& context, const Reflection
 
 // M by drawing the mirrored scene: what radiance maps stand for, at the cost of the scene's triangles.
 Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const ReflectionTarget& target,
-                                         const ReflectedImage& image) {
+                                         const MarkedReflector& marked, const ReflectedImage& image) {
   const auto& [scene, eyes, options, stats] = work.context;
   const GpuReflector& reflector = image.reflector;
   const Pack& pack = scene.pack();
@@ -240,11 +296,9 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
                                 target.reflectance * reflectance_of(pack, reflector.material),
                                 target.share * static_cast<float>(view.width) * static_cast<float>(view.height) /
                                     (static_cast<float>(eyes.width) * static_cast<float>(eyes.height)),
+                                marked.budget_ms,
                                 image.blurs};
-  MirroredScene mirrored{visible_batches(scene.opaque(), make_frustum(view.clip_from_pack),
-                                         sets_hold(work.context, target) ? reflector.seen : std::nullopt),
-                         reflector.listed,
-                         {}};
+  MirroredScene mirrored{batches_in(work.context, target, reflector, view), reflector.listed, {}};
   if (inside.mirrors < most_orders(options) && ++image_count_ <= kMostImages) {
     ORIEL_TRY_VOID(draw_mirrors_in(within, inside, mirrored));
   } else {
@@ -297,7 +351,7 @@ Result<std::vector<const GpuCurvedReflector*>> ReflectionRenderer::draw_curved(c
   const auto& [scene, view, options, stats] = context;
   std::vector<const GpuCurvedReflector*> later;
   std::vector<CurvedPass::Shown> opaque;
-  if (!shows_reflectors(options) || options.few_reflections) return later;
+  if (!shows_reflectors(options)) return later;
   const Frustum frustum = make_frustum(view.clip_from_pack);
   const bool in_frame = target.frame != nullptr;
   for (const GpuCurvedReflector& reflector : scene.curved_reflectors()) {

@@ -14,6 +14,7 @@
 #include "player/navigation/zone.h"
 #include "player/passes/frame_extension.h"
 #include "player/passes/glass_pass.h"
+#include "player/passes/image_budget.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
 #include "player/passes/scene_pass.h"
@@ -52,7 +53,8 @@ struct MarkedReflector {
   GLint value = 0;        // in the stencil; 0: see-through
   std::size_t query = 0;  // first of kMaskQueries
   bool waits = false;     // for its maps: nothing of it is drawn
-  float worth = 0;  // of a frame that it filled: what the mirrors on the way leave of the light, and of the pixels
+  float worth = 0;      // of a frame that it filled: what the mirrors on the way leave of the light, and of the pixels
+  float budget_ms = 0;  // of the images in its own
 };
 
 class ReflectionRenderer {
@@ -75,9 +77,16 @@ class ReflectionRenderer {
   void add_curved(const FrameContext& context, const std::vector<const GpuCurvedReflector*>& curved) const;
 
  private:
+  // Those that the target's budget covers.
+  void afford(const FrameContext& context, const ReflectionTarget& target, std::vector<MarkedReflector>& found);
+  ImageRect rect_of(const FrameContext& context, const MarkedReflector& marked) const;
+  // The opaque scene in it.
+  std::vector<DrawBatch> batches_in(const FrameContext& context, const ReflectionTarget& target,
+                                    const GpuReflector& reflector, const View& mirrored);
   Status draw_image(const ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
                     const ReflectedImage& image);
-  Status draw_mirrored(const ReflectionWork& work, const ReflectionTarget& target, const ReflectedImage& image);
+  Status draw_mirrored(const ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
+                       const ReflectedImage& image);
   Status draw_mirrors_in(const ReflectionWork& work, const ReflectionTarget& target, MirroredScene& mirrored);
   // Into the image of a mirror.
   static Status add_light(const ReflectionWork& work, const ReflectionTarget& target, const MirroredScene& mirrored);
@@ -92,6 +101,7 @@ class ReflectionRenderer {
   int image_count_ = 0;        // of mirrored geometry in this frame, so far
   std::uint64_t zone_of_ = 0;  // GpuScene::serial()
   Zone zone_;
+  ImagePrices prices_;
   ReflectorPass reflector_pass_;
   MarchPass march_pass_;
   MeshPass mesh_pass_;

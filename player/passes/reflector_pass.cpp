@@ -53,23 +53,31 @@ Result<ReflectorPass> ReflectorPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void ReflectorPass::draw_mask(const FrameContext& context, const GpuReflector& reflector, const NdcRect& screen,
-                              GLuint mark, std::span<const gpu::Query> queries) const {
-  const auto& [scene, view, options, stats] = context;
+void ReflectorPass::begin_mask(const FrameContext& context, GLuint mark, GLuint bits) const {
   gpu::RasterState state;
   state.depth_test = true;
   state.color_write = false;
   state.cull = gpu::Cull::kBack;
-  state.mirrored = view.mirrored;
+  state.mirrored = context.view.mirrored;
   state.stencil_ref = static_cast<GLint>(mark);
-  const GLuint bits = mark == kSeeThroughBit ? kSeeThroughBit : mark != 0 ? kReflectorBits : 0;
+  state.stencil_write = bits;
+  gpu::apply(state);
   mask_.use();
-  mask_.set("u_clip_from_pack", view.clip_from_pack);
-  scene.bind_geometry();
+  mask_.set("u_clip_from_pack", context.view.clip_from_pack);
+  context.scene.bind_geometry();
+}
+
+void ReflectorPass::draw_mask(const FrameContext& context, const GpuReflector& reflector, GLuint mark) const {
+  begin_mask(context, mark, mark == kSeeThroughBit ? kSeeThroughBit : kReflectorBits);
+  draw_reflector(reflector, context.stats);
+}
+
+void ReflectorPass::ask_visible(const FrameContext& context, const GpuReflector& reflector, const NdcRect& screen,
+                                std::span<const gpu::Query> queries) const {
+  const auto& [scene, view, options, stats] = context;
+  begin_mask(context, 0, 0);
   glEnable(GL_SCISSOR_TEST);
   for (int axis = 0; axis < 2; ++axis) {
-    state.stencil_write = axis == 0 ? bits : 0;
-    gpu::apply(state);
     for (int i = 0; i < kMaskStrips; ++i) {
       IVec2 lower = strip_edge(screen, view, 0), upper = strip_edge(screen, view, kMaskStrips);
       lower[axis] = strip_edge(screen, view, i)[axis];

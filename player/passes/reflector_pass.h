@@ -20,11 +20,12 @@ class ReflectorPass {
  public:
   static Result<ReflectorPass> create(gpu::Dialect dialect);
 
-  // Marks the pixels of the reflector that the frame's depth leaves visible in the stencil: by kSeeThroughBit, or by a
-  // number in kReflectorBits; 0: not at all. screen: what the reflector covers. Drawn in strips along each axis;
-  // kMaskQueries queries count which have pixels.
-  void draw_mask(const FrameContext& context, const GpuReflector& reflector, const NdcRect& screen, GLuint mark,
-                 std::span<const gpu::Query> queries) const;
+  // Asks which strips along each axis have pixels of the reflector that the frame's depth leaves visible: kMaskQueries
+  // queries. screen: what the reflector covers.
+  void ask_visible(const FrameContext& context, const GpuReflector& reflector, const NdcRect& screen,
+                   std::span<const gpu::Query> queries) const;
+  // Marks these pixels in the stencil: by kSeeThroughBit, or by a number in kReflectorBits.
+  void draw_mask(const FrameContext& context, const GpuReflector& reflector, GLuint mark) const;
   // The strips of a mask that have pixels, as a rectangle around what is visible; empty where nothing is. Waits for the
   // queries.
   static NdcRect visible_part(const NdcRect& screen, const View& view, std::span<const gpu::Query> queries);
@@ -38,6 +39,7 @@ class ReflectorPass {
   void draw_emitters(const FrameContext& context, const GpuReflector& reflector, GLint value) const;
 
  private:
+  void begin_mask(const FrameContext& context, GLuint mark, GLuint bits) const;
   // What every program needs to know about the reflector and its R.
   void set_surface(const gpu::Program& program, const FrameContext& context, const GpuReflector& reflector) const;
   // The program for those that the reflector's maps leave out, in use from then on; null where there is nothing to

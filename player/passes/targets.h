@@ -1,6 +1,8 @@
 // The frame that passes draw into, and images of it.
 #pragma once
 
+#include <limits>
+
 #include "player/gpu/framebuffer.h"
 #include "player/reflections/image_target.h"
 
@@ -33,10 +35,11 @@ Result<FrameTarget> make_frame_target(int width, int height, int samples, bool h
 struct ReflectionTarget {
   const FrameTarget* frame = nullptr;  // null: an image
   const ImageTarget* image = nullptr;
-  int mirrors = 0;        // on the way to it
-  float reflectance = 1;  // of those, at 60 degrees
-  float share = 1;        // of the frame's pixels
-  bool blurs = false;     // an image that is convolved once it is drawn
+  int mirrors = 0;                                           // on the way to it
+  float reflectance = 1;                                     // of those, at 60 degrees
+  float share = 1;                                           // of the frame's pixels
+  float budget_ms = std::numeric_limits<float>::infinity();  // of the images in it
+  bool blurs = false;                                        // an image that is convolved once it is drawn
   void bind(const View& view) const;
 };
 

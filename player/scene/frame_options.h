@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -48,19 +49,23 @@ struct LiveSettings {
   bool operator==(const LiveSettings&) const = default;
 };
 
+inline constexpr float kBudgetOfDevice = -1;
+
 struct FrameOptions {
   Show show = Show::kAll;
   Reflections reflections = Reflections::kChosen;
   // Reflectors on the way of a reflection; none: two, and on while all of them are mirrors that keep half of the light.
   std::optional<int> orders = {};
+  // Foretold time of planar reflectors' images: those that show most for their price are drawn (passes/image_budget.h).
+  // kBudgetOfDevice: what suits the device, less in a coarse frame.
+  float image_budget_ms = std::numeric_limits<float>::infinity();
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Blur blur = Blur::kDistance;
   bool visible_sets = true;  // draws only what the eye's place may see, where the pack knows
   int samples = 1;           // of a pixel at edges, as many as the device has
   bool halves = false;       // light in half floats where the scene is dark enough for them: frames are drawn sooner
   bool coarse = false;       // less work by pixel, for frames while something moves
-  bool few_reflections = false;  // images in large plane reflectors alone, for the same
-  bool timed = false;            // each pass, which costs a little itself
+  bool timed = false;        // each pass, which costs a little itself
   // Fills FrameStats::reflected_pixels to sharp: reads images back, which is slow.
   bool count_holes = false;
   std::vector<MoverPose> poses{};  // by Pack::movers; empty: all at rest

@@ -43,7 +43,7 @@ struct PlayArguments {
   double time_s = 0;           // of animations; the window's clock starts there
   std::optional<float> ev100;  // nothing: automatic
   ToneCurve curve = ToneCurve::kAces;
-  FrameOptions frame{.samples = kSamples};
+  FrameOptions frame{.image_budget_ms = kBudgetOfDevice, .samples = kSamples};
   std::string output;          // a file, or a folder
   std::string format = "png";  // of files in a folder
   bool toned = false;          // --tonemap was given

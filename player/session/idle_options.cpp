@@ -88,6 +88,7 @@ const Rule kRules[] = {
        return draws_maps(pack, a) ? nullptr : "--reflections draws none of them";
      }},
     {"--mover-lights", no_movers},
+    {"--frame-budget", no_planar_reflections},
     {"--orders", no_planar_reflections},
     {"--pvs",
      [](const Pack& pack, const PlayArguments&) {

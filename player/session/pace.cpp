@@ -41,9 +41,9 @@ Pace::Draw Pace::next(bool moved, bool altered, Quality quality, double now_s) {
 // The finest level that the time of a frame at this one leaves room for.
 void Pace::fit(float ms) {
   const float aim = kAim * options_.slowest_ms;
-  const float whole = level_ > 0 ? ms / now().work() : kLessWork * ms;
+  const float whole = level_ > 0 ? ms / work(level_) : kLessWork * ms;
   int level = std::max(level_, 1);
-  while (level < kLevels && whole * coarse(level).work() > aim) ++level;
+  while (level < kLevels && whole * work(level) > aim) ++level;
   level_ = level;
   frames_ = 0;
   mean_ms_ = 0;
@@ -73,7 +73,7 @@ void Pace::took(Draw drawn, float ms) {
 }
 
 void Pace::go_finer() {
-  if (mean_ms_ * coarse(level_ - 1).work() / now().work() > kAim * options_.slowest_ms) return;
+  if (mean_ms_ * work(level_ - 1) / work(level_) > kAim * options_.slowest_ms) return;
   --level_;
   frames_ = 0;
   mean_ms_ = 0;

@@ -17,13 +17,6 @@ struct PaceOptions {
   double still_s = 0.1;             // without motion, until the whole frame is drawn
 };
 
-// How coarse a frame is while something moves.
-struct CoarseLevel {
-  float scale = 1;                                                    // of the pixels, along each side
-  bool few = false;                                                   // images in large plane reflectors alone
-  float work() const { return scale * scale * (few ? 0.5f : 1.0f); }  // about, of a coarse frame of the whole's size
-};
-
 class Pace {
  public:
   enum class Draw {
@@ -40,27 +33,17 @@ class Pace {
   // What the frame took that next() asked for.
   void took(Draw drawn, float ms);
 
-  // Of a coarse frame, along each side; and whether it shows large plane reflections alone.
-  float scale() const { return now().scale; }
-  bool few_reflections() const { return now().few; }
+  // Of a coarse frame's pixels, along each side.
+  float scale() const { return coarse(level_); }
   // Frames are coarser while something moves.
   bool coarsens() const { return level_ > 0; }
 
  private:
-  static constexpr std::array<CoarseLevel, 11> kCoarse{{{1},
-                                                        {0.85f},
-                                                        {0.7f},
-                                                        {0.6f},
-                                                        {0.5f},
-                                                        {0.42f},
-                                                        {0.35f},
-                                                        {0.42f, true},
-                                                        {0.35f, true},
-                                                        {0.3f, true},
-                                                        {0.25f, true}}};
+  static constexpr std::array<float, 9> kCoarse{1, 0.85f, 0.7f, 0.6f, 0.5f, 0.42f, 0.35f, 0.3f, 0.25f};
   static constexpr int kLevels = static_cast<int>(kCoarse.size());  // 0 is the whole frame
-  static const CoarseLevel& coarse(int level) { return kCoarse[static_cast<std::size_t>(level > 0 ? level - 1 : 0)]; }
-  const CoarseLevel& now() const { return coarse(level_); }
+  static float coarse(int level) { return kCoarse[static_cast<std::size_t>(level > 0 ? level - 1 : 0)]; }
+  // About, of a coarse frame of the whole's size.
+  static float work(int level) { return coarse(level) * coarse(level); }
   void fit(float ms);
   void go_finer();
 

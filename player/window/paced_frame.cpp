@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
+#include "player/passes/image_budget.h"
+
 namespace oriel {
 namespace {
 
 constexpr std::uint32_t kShadeMaps = 48;  // of movers, drawn anew in a coarse frame
 constexpr int kLeastSide = 16;            // pixels of a coarse frame
-
-bool is_software(const std::string& renderer) {
-  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos ||
-         renderer.find("SwiftShader") != std::string::npos;
-}
 
 bool same_view(const Camera& a, const Camera& b) {
   return a.eye == b.eye && a.forward == b.forward && a.up == b.up && a.vertical_fov_rad == b.vertical_fov_rad &&
@@ -27,10 +24,9 @@ FrameOptions looks_of(const Session& session) {
 
 }  // namespace
 
-FrameOptions coarse_options(FrameOptions options, bool few_reflections) {
+FrameOptions coarse_options(FrameOptions options) {
   options.coarse = true;
   options.shade.maps_a_frame = kShadeMaps;
-  options.few_reflections = few_reflections;
   options.samples = 1;
   options.maps_per_element = std::min(options.maps_per_element, 1);
   return options;
@@ -56,7 +52,7 @@ Pace::Draw PacedFrame::choose(const Seen& seen) {
   window_ = seen.window;
   images_ = seen.images;
   const bool coarse = choice_ == Pace::Draw::kCoarse;
-  options_ = coarse ? coarse_options(session.frame, pace_.few_reflections()) : session.frame;
+  options_ = coarse ? coarse_options(session.frame) : session.frame;
   size_ = coarse ? glm::min(glm::max(IVec2(glm::round(Vec2(window_) * pace_.scale())), IVec2(kLeastSide)), window_)
                  : window_;
   drawn_ = choice_;

@@ -10,8 +10,8 @@
 
 namespace oriel {
 
-// What a frame is drawn with while something moves. few_reflections: Pace::few_reflections.
-FrameOptions coarse_options(FrameOptions options, bool few_reflections);
+// What a frame is drawn with while something moves.
+FrameOptions coarse_options(FrameOptions options);
 
 class PacedFrame {
  public:

@@ -1,4 +1,6 @@
 // The light of an opaque surface. To be included after irradiance_here(normal), lux.
+#include "lib/texture_along.glsl"
+
 uniform sampler2D u_base_texture;
 uniform vec4 u_base_color;
 #ifdef PLAIN
@@ -27,7 +29,7 @@ float alpha_of_light(float kind) { return u_alpha_kind == 0 ? kind : inverse_dis
 
 void main() {
   vec3 normal = tilted_by_map();
-  vec4 base = u_base_color * v_color * texture(u_base_texture, v_uv);
+  vec4 base = u_base_color * v_color * texture_along(u_base_texture, v_uv);
   if (u_alpha_cutoff >= 0.0 && base.a < u_alpha_cutoff) discard;
   if (u_unlit) {
     o_light = vec4(u_weights.z * u_emission * base.rgb, alpha_of_light(u_weights.z > 0.0 ? 2.0 : 1.0));

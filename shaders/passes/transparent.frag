@@ -1,5 +1,6 @@
 // See-through surfaces. Those that tint what lies behind are drawn twice: once to dim it, once to add their own light.
 #include "passes/lightmap.glsl"
+#include "lib/texture_along.glsl"
 
 uniform sampler2D u_base_texture;
 uniform vec4 u_base_color;
@@ -19,7 +20,7 @@ layout(location = 0) out vec4 o_light;
 
 void main() {
   vec3 normal = tilted_by_map();
-  vec4 base = u_base_color * v_color * texture(u_base_texture, v_uv);
+  vec4 base = u_base_color * v_color * texture_along(u_base_texture, v_uv);
   if (u_alpha_cutoff >= 0.0 && (base.a < u_alpha_cutoff) != u_covers) discard;
   float coverage = u_covers ? clamp(base.a, 0.0, 1.0) : 1.0;
   vec3 reflectance = u_unlit ? vec3(0.0) : reflectance_of(normal);

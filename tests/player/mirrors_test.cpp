@@ -108,6 +108,34 @@ TEST_F(Mirrors, TakeTheirNumberToTheDepthOfImages) {
   }
 }
 
+// Three glossy walls of which a budget draws one, two or all: those that cover most of the picture. The others show
+// their mean light, which is none. Whole mirrors are drawn whatever they cost, but nothing in them.
+TEST_F(Mirrors, ThatABudgetDoesNotCoverShowTheirMeanLight) {
+  Pack pack = empty_pack();
+  add_bare_mirror(pack, {-1, -1, -2}, {2, 0, 0}, {0, 2, 0});
+  add_bare_mirror(pack, {-1, -1, 0}, {0, 0, -2}, {0, 2, 0});
+  add_bare_mirror(pack, {1, -1, -2}, {0, 0, 2}, {0, 2, 0});
+  pack.fresnel_maps[0] = flat_reflectance(Vec3(0.3f));
+  pack.materials[0].roughness = 0;
+  const Camera camera = look_at({0.05f, 0.02f, 0.6f}, {0, 0, -2}, 1.6f);
+  const auto drawn = [&](float budget_ms) {
+    FrameOptions options;
+    options.image_budget_ms = budget_ms;
+    return draw(pack, camera, 160, 120, options).stats.reflectors;
+  };
+  const std::uint32_t all = drawn(std::numeric_limits<float>::infinity());
+  EXPECT_GT(all, 3u);
+  EXPECT_EQ(drawn(1e6f), all);
+  EXPECT_EQ(drawn(0), 0u);
+  for (std::uint32_t more = 0, at = 0; at < 40; ++at) {
+    const std::uint32_t now = drawn(0.5f * static_cast<float>(at));
+    EXPECT_GE(now, more) << at;
+    more = now;
+  }
+  pack.fresnel_maps[0] = flat_reflectance(Vec3(0.9f));
+  EXPECT_EQ(drawn(0), 3u);
+}
+
 // Unlit surfaces are as bright as the pack says that their white is.
 TEST_F(Mirrors, ShowUnlitSurfacesAsBrightAsThePackSays) {
   Pack pack = empty_pack();

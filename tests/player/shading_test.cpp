@@ -91,6 +91,30 @@ TEST_F(Shading, TexturesAreDecodedAndCutOut) {
   expect_light(draw(pack, facing_camera(), 4, 4).at(2, 2), p.at(2, 2));
 }
 
+// Stripes along a wall that is seen at 6 degrees: a pixel sees nine times as much along them as across.
+TEST_F(Shading, SlantedSurfacesKeepTheirPattern) {
+  Pack pack;
+  pack.materials.resize(1);
+  pack.materials[0].base_color_texture = 0;
+  constexpr std::uint32_t kTexels = 128, kStripe = 4;
+  Texture stripes{"t", kTexels, kTexels, Wrap::kRepeat, Wrap::kRepeat, false, {}};
+  for (std::uint32_t i = 0; i < kTexels * kTexels; ++i)
+    stripes.texels.insert(stripes.texels.end(), 4, i / kTexels / kStripe % 2 == 1 ? 255 : 0);
+  for (std::size_t i = 3; i < stripes.texels.size(); i += 4) stripes.texels[i] = 255;
+  pack.textures.push_back(std::move(stripes));
+  add_quad(pack, {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, 0, 0);
+  pack.lightmaps = {flat_page(Vec3(kPi))};
+  constexpr int kSize = 96;
+  const Picture p = draw(pack, look_at({-4, 0, 0.4f}, {0, 0, 0}, 0.9f), kSize, kSize);
+  Vec3 least(1), most(0);
+  for (int y = kSize / 2 - 12; y < kSize / 2 + 12; ++y) {
+    least = glm::min(least, p.at(kSize / 2, y));
+    most = glm::max(most, p.at(kSize / 2, y));
+  }
+  EXPECT_LT(least.g, 0.1f);
+  EXPECT_GT(most.g, 0.9f);
+}
+
 // A screen of four colours: each pixel has its texel's share of the mean, in the open and through glass, dimmed or not.
 TEST_F(Shading, ScreensShowTheirPicture) {
   for (const float transmission : {0.0f, 0.5f}) {

@@ -242,9 +242,6 @@ export class GpuScene {
         gl.texSubImage2D(gl.TEXTURE_2D, l + 1, 0, 0, mip.width, mip.height, gl.RGBA, gl.UNSIGNED_BYTE, mip.texels);
       });
     } else gl.generateMipmap(gl.TEXTURE_2D);
-    const anisotropic = gl.getExtension('EXT_texture_filter_anisotropic');
-    if (anisotropic && !texture.nearest)
-      gl.texParameterf(gl.TEXTURE_2D, anisotropic.TEXTURE_MAX_ANISOTROPY_EXT, Math.min(8, gl.getParameter(anisotropic.MAX_TEXTURE_MAX_ANISOTROPY_EXT) as number));
     (normal ? this.normals : this.textures)[index] = out;
     this.bytes += (texture.texels.byteLength * 4) / 3;
   }

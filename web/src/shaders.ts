@@ -14,6 +14,7 @@ import lib_reflectance from '../../shaders/lib/reflectance.glsl';
 import lib_shading from '../../shaders/lib/shading.glsl';
 import lib_surround from '../../shaders/lib/surround.glsl';
 import lib_taken_light from '../../shaders/lib/taken_light.glsl';
+import lib_texture_along from '../../shaders/lib/texture_along.glsl';
 import lib_tonemap from '../../shaders/lib/tonemap.glsl';
 import lib_transfer from '../../shaders/lib/transfer.glsl';
 import pass_mover_light_frag from '../../shaders/passes/mover_light.frag';
@@ -71,6 +72,7 @@ const files: Record<string, string> = {
   'lib/shading.glsl': lib_shading,
   'lib/surround.glsl': lib_surround,
   'lib/taken_light.glsl': lib_taken_light,
+  'lib/texture_along.glsl': lib_texture_along,
   'lib/tonemap.glsl': lib_tonemap,
   'lib/transfer.glsl': lib_transfer,
   'passes/curved_light.frag': pass_curved_light_frag,

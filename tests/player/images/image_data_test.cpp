@@ -107,25 +107,6 @@ TEST(MapArray, CoarserMapsKeepLightAndDepthTogether) {
   EXPECT_EQ(data.light.bytes() + data.disparity.bytes() + data.ranges.bytes(), map_array_bytes(sizes));
 }
 
-// What a pixel sees slanted is looked at in several places; never where texels are shown as they are.
-TEST(TextureUpload, SlantedSurfacesKeepTheirPattern) {
-  const auto context = gpu::HeadlessContext::create();
-  ASSERT_TRUE(context) << context.error().text();
-  ASSERT_TRUE(gpu::open_device());
-  const auto anisotropy = [] {
-    GLfloat value = 0;
-    glGetTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY, &value);
-    return value;
-  };
-  Texture texture = texture_of(8, 8, [](std::uint32_t) { return std::uint8_t{7}; });
-  const gpu::Texture2d smooth(gpu::kRgba8, 8, 8, nullptr, color_texture_data(texture, {}, 0).options);
-  if (anisotropy() == 0) GTEST_SKIP() << "the device has no anisotropic filter";
-  EXPECT_GE(anisotropy(), 2);
-  texture.nearest = true;
-  const gpu::Texture2d nearest(gpu::kRgba8, 8, 8, nullptr, color_texture_data(texture, {}, 0).options);
-  EXPECT_EQ(anisotropy(), 1);
-}
-
 TEST(TextureUpload, InSlicesIsTheSameAsAtOnce) {
   const auto context = gpu::HeadlessContext::create();
   ASSERT_TRUE(context) << context.error().text();

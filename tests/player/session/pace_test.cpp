@@ -70,7 +70,7 @@ TEST(PaceTest, FinerFramesThatWereTooSlowAreTriedLessOften) {
   int slow = 0, frames = 0;
   for (; frames < 2000; ++frames) {
     const Draw draw = pace.next(true, false, Quality::kAutomatic, now_s);
-    const float ms = pace.few_reflections() ? 20.0f : 120.0f;
+    const float ms = pace.scale() < 0.4f ? 20.0f : 120.0f;
     slow += ms > 1000 / 15.0f ? 1 : 0;
     pace.took(draw, ms);
     now_s += 1e-3 * ms;

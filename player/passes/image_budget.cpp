@@ -1,0 +1,55 @@
+#include "player/passes/image_budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace oriel {
+namespace {
+
+constexpr float kCoarseBudget = 0.25f;  // of a whole frame's: 60 ms for 250
+
+}  // namespace
+
+float ImagePrices::of(std::uint64_t parts, std::uint64_t triangles, std::uint64_t pixels) const {
+  return image_ms + 1e-3f * (part_us * static_cast<float>(parts) + triangle_us * static_cast<float>(triangles) +
+                             pixel_us * static_cast<float>(pixels));
+}
+
+bool is_software(const std::string& renderer) {
+  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos ||
+         renderer.find("SwiftShader") != std::string::npos;
+}
+
+ImagePrices image_prices(const std::string& renderer) {
+  // docs/notes/frame.md, "What an image costs".
+  if (is_software(renderer)) return {1, 30, 0.15f, 0.2f};
+  return {0.008f, 1, 0.0013f, 0.00046f};
+}
+
+float image_budget_ms(const std::string& renderer, bool coarse) {
+  const float whole = is_software(renderer) ? 150 : 8;
+  return coarse ? kCoarseBudget * whole : whole;
+}
+
+std::vector<ImageAllowance> afford_images(std::span<const PricedImage> images, float budget_ms) {
+  std::vector<std::size_t> order(images.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (images[a].needed != images[b].needed) return images[a].needed;
+    return images[a].worth * images[b].price_ms > images[b].worth * images[a].price_ms;
+  });
+  std::vector<ImageAllowance> out(images.size());
+  float left = budget_ms, worth = 0;
+  for (const std::size_t i : order) {
+    if (!images[i].needed && images[i].price_ms > left) continue;
+    out[i].drawn = true;
+    left -= images[i].price_ms;
+    worth += images[i].worth;
+  }
+  for (std::size_t i = 0; i < images.size(); ++i)
+    if (out[i].drawn && images[i].worth > 0) out[i].within_ms = std::max(left, 0.0f) * (images[i].worth / worth);
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,38 @@
+// A frame has a price: which reflectors get an image of their own, for what they show by millisecond.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+// Milliseconds that an image of a reflector takes.
+struct ImagePrices {
+  float image_ms = 0, part_us = 0, triangle_us = 0, pixel_us = 0;  // by image, draw, triangle drawn and pixel
+  float of(std::uint64_t parts, std::uint64_t triangles, std::uint64_t pixels) const;
+};
+// renderer: gpu::Device::renderer.
+ImagePrices image_prices(const std::string& renderer);
+// What images may cost in a frame, unless the user tells: milliseconds. coarse: while something moves.
+float image_budget_ms(const std::string& renderer, bool coarse);
+// Whether it draws on processors.
+bool is_software(const std::string& renderer);
+
+struct PricedImage {
+  float worth = 0;      // any unit
+  float price_ms = 0;   // positive
+  bool needed = false;  // is drawn whatever it costs
+};
+
+struct ImageAllowance {
+  bool drawn = false;
+  float within_ms = 0;  // for images in it
+};
+
+// Needed images, then others in the order of worth over price, as long as the budget covers them. What is left goes to
+// the images in them, by worth. An infinite budget draws all.
+std::vector<ImageAllowance> afford_images(std::span<const PricedImage> images, float budget_ms);
+
+}  // namespace oriel
