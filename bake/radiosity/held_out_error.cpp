@@ -132,7 +132,7 @@ class Verifier {
       texel_paths_[which].add({h.pixel->page, h.index}, {0, paths}, own, traced);
       return own;
     }
-    const SurfacePoint point = point_on_side(t_.accel.scene(), h.pixel->triangle, h.pixel->barycentric);
+    const SurfacePoint point = point_on_side(t_.accel, h.pixel->triangle, h.pixel->barycentric);
     for (std::uint32_t k = 0; k < paths; ++k) {
       if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
       Sampler sampler(seeds_[which], h.number, k);

@@ -168,7 +168,7 @@ LitSides lit_sides(const SideProbe& probe, std::span<const std::uint32_t> part, 
     const std::uint32_t triangle = part[std::min<std::size_t>(at, part.size() - 1)];
     const Vec2 barycentric = square_to_triangle(sampler.next2());
     for (SideLight* side : {&front, &back}) {
-      const SurfacePoint point = point_on_side(scene, triangle, barycentric, side == &front);
+      const SurfacePoint point = point_on_side(t.accel, triangle, barycentric, side == &front);
       Sampler own = sampler;
       const IrradianceSample e = sample_irradiance(t, point, own, rays);
       side->add(luminance(e.direct + e.indirect));

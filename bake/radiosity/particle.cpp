@@ -46,7 +46,7 @@ class ParticleTracer {
       ++rays_;
       const Hit hit = t_.accel.intersect(ray_);
       if (!hit) break;
-      const SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray_.direction);
+      const SurfacePoint surface = surface_at(t_.accel, hit, ray_.direction);
       absorb(hit);
       add_to_texel(surface);
       if (passes_ == kMaxPasses) return lose(fate_.lost_guard);
@@ -83,7 +83,7 @@ class ParticleTracer {
   // Texels have irradiance by the interpolated normal, so the light is scaled by the cosines.
   void add_to_texel(const SurfacePoint& surface) {
     if (!surface.front || !texels_.contains(surface.triangle, surface.barycentric)) return;
-    const SurfacePoint on_texel = point_on_side(t_.accel.scene(), surface.triangle, surface.barycentric);
+    const SurfacePoint on_texel = point_on_side(t_.accel, surface.triangle, surface.barycentric);
     const Vec3 wi = -ray_.direction;
     const float cosine = glm::dot(on_texel.geometric_normal, wi);
     if (!(cosine > 0)) return;
@@ -137,7 +137,7 @@ class ParticleTracer {
   void spread(const Hit& hit, const SurfacePoint& surface, const Shading& shading) {
     const Vec3 wi = -ray_.direction;
     ray_.direction = shading.spread(sampler_.next2());
-    const SurfacePoint seen = surface_at(t_.accel.scene(), hit_on_side(hit, !hit.front), -ray_.direction);
+    const SurfacePoint seen = surface_at(t_.accel, hit_on_side(hit, !hit.front), -ray_.direction);
     const float cos_o = std::abs(glm::dot(seen.normal, ray_.direction)), cos_i = glm::dot(surface.normal, wi);
     const float pdf = shading.spread_pdf(ray_.direction),
                 transmitted = 1 - max_component(reflectance(surface.shade, cos_i));
@@ -149,7 +149,7 @@ class ParticleTracer {
   // f cosθi over the density of wo, f being that of the adjoint path.
   Vec3 weight(const Hit& hit, const BsdfSample& sample, const Shading& chosen, const Vec3& wi, const Vec3& wo) const {
     if (sample.delta) return sample.weight;
-    const SurfacePoint seen = surface_at(t_.accel.scene(), hit, -wo);
+    const SurfacePoint seen = surface_at(t_.accel, hit, -wo);
     const float pdf = chosen.pdf(wo);
     return pdf > 0 ? Shading(seen, wo).eval(wi) / pdf : Vec3(0);
   }

@@ -95,7 +95,7 @@ Vec3 Meter::sample_punctual(const Place& place, std::uint64_t stream, std::uint3
   for (std::uint32_t l = 0; l < t_.accel.scene().lights.size(); ++l) {
     Sampler sampler(context_.seed + 0x9f00 + l, stream, k);
     const LightSample s = t_.lights.sample_light(l, place.receiver.position, sampler.next2());
-    const Vec3 value = s.estimate * punctual_incidence(place.receiver, s.direction);
+    const Vec3 value = s.estimate * incidence(place.receiver, s.direction, true);
     if (!(max_component(value) > 0)) continue;
     ++rays;
     sum += value * t_.accel.transmittance({place.receiver.position, s.direction, s.distance, true, false});
@@ -111,7 +111,7 @@ Vec3 Meter::sample_mirrored(const Place& place, std::uint64_t stream, std::uint3
     if (mirrored[i].order > t_.options.max_bounces) continue;
     Sampler sampler(context_.seed + 0x3177 + i, stream, k);
     const MirroredSample s = mirrored.sample(i, t_.lights, place.receiver.position, sampler.next2());
-    const Vec3 value = s.endless * s.share * punctual_incidence(place.receiver, s.direction);
+    const Vec3 value = s.endless * s.share * incidence(place.receiver, s.direction, true);
     if (max_component(value) > 0) sum += value * t_.accel.transmittance_of_all(s.rays(), rays);
   }
   return sum;

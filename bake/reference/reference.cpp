@@ -24,7 +24,7 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
     light.emission = sky_radiance(t.accel.scene(), ray.direction);
     return light;
   }
-  SurfacePoint surface = surface_at(t.accel.scene(), hit, ray.direction);
+  SurfacePoint surface = surface_at(t.accel, hit, ray.direction);
   const auto begin = [&](const char* what) {
     if (t.listener) t.listener->begin(what), t.listener->meet(surface, Vec3(1));
   };

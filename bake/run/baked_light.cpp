@@ -86,12 +86,11 @@ Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, c
 }
 
 Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {
-  return shown_light(baked, seen, surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye, seen.width_m),
-                     !seen.mirror);
+  return shown_light(baked, seen, surface_at(baked.accel, seen.hit, -seen.towards_eye, seen.width_m), !seen.mirror);
 }
 
 bool traces_lobe(const BakedScene& baked, const SeenSurface& seen) {
-  return shows_lobe(baked, seen, surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye, seen.width_m));
+  return shows_lobe(baked, seen, surface_at(baked.accel, seen.hit, -seen.towards_eye, seen.width_m));
 }
 
 OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing) {
@@ -109,7 +108,7 @@ std::uint32_t lobe_paths(double pixels) {
 
 Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
                                std::uint64_t seed, std::uint64_t& rays) {
-  const SurfacePoint surface = surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye, seen.width_m);
+  const SurfacePoint surface = surface_at(baked.accel, seen.hit, -seen.towards_eye, seen.width_m);
   if (!shows_lobe(baked, seen, surface)) return shown_light(baked, seen, surface, !seen.mirror);
   if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths = std::max(1u, paths / kFewerForMirrors);
   return shown_light(baked, seen, surface, false) + lobe_light(baked, {surface, seen.towards_eye}, paths, seed, rays);

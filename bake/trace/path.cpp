@@ -70,7 +70,7 @@ class PathTracer {
         if (t_.listener) t_.listener->add("sky", sky);
         break;
       }
-      SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
+      SurfacePoint surface = surface_at(t_.accel, hit, ray.direction);
       throughput_ *= medium_.passed(t_.accel.scene(), hit);
       if (t_.listener) t_.listener->meet(surface, throughput_);
       if (eyes_ && t_.options.unlit_white > 0 && t_.accel.scene().material_of(hit.triangle).unlit) {

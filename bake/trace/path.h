@@ -51,7 +51,7 @@ struct SurfacePoint {
   const Vec3& horizon() const { return rounded > 0 ? normal : geometric_normal; }  // of light that it reflects
 };
 
-// Everything but the shading parameters: cheap, no texture is read.
+// Everything but the shading parameters and `rounded`: cheap, no texture is read.
 SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction);
 // The surface at a hit, for light that leaves it against `direction` (unit, of the ray that hit). Textures are their
 // means over what a cone of width_m around the ray meets of it.
@@ -59,6 +59,10 @@ SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& directio
 
 // The surface as light meets it that falls straight on one side of it, as geometry_at().
 SurfacePoint point_on_side(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, bool front = true);
+
+// The same with `rounded`, for which a ray is traced: surfaces that rays leave.
+SurfacePoint surface_at(const Accel& accel, const Hit& hit, const Vec3& direction, float width_m = 0);
+SurfacePoint point_on_side(const Accel& accel, std::uint32_t triangle, const Vec2& barycentric, bool front = true);
 
 // Is told what paths meet, vertex by vertex.
 class PathListener {

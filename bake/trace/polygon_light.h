@@ -44,11 +44,12 @@ struct Receiver {
   Vec3 mirrored_normal() const { return normal - 2 * glm::dot(normal, geometric_normal) * geometric_normal; }
 };
 
-// The weight of light from ω (unit).
-inline float incidence(const Receiver& r, const Vec3& direction) {
+// The weight of light from ω (unit). punctual: of a point, a spot or a sun, of which nothing is mirrored: light of one
+// direction would jump from facet to facet of a hollow.
+inline float incidence(const Receiver& r, const Vec3& direction, bool punctual = false) {
   if (glm::dot(r.horizon(), direction) <= 0) return 0;
   const float straight = std::max(0.0f, glm::dot(r.normal, direction));
-  if (r.normal == r.horizon()) return straight;
+  if (punctual || r.normal == r.horizon()) return straight;
   return straight + std::max(0.0f, glm::dot(r.mirrored_normal(), direction));
 }
 

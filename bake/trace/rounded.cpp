@@ -8,8 +8,11 @@ constexpr float kRound = 0.8f;  // cosine between facet and normal, at least
 
 }  // namespace
 
-float height_of_rounded(const Scene& scene, std::uint32_t triangle, const Vec3& point, const Vec3& geometric_normal) {
-  const UVec3& t = scene.triangles[triangle];
+float height_of_rounded(const Accel& accel, const SurfacePoint& surface) {
+  if (surface.normal == surface.geometric_normal) return 0;
+  const Scene& scene = accel.scene();
+  const Vec3 &point = surface.position, &geometric_normal = surface.geometric_normal;
+  const UVec3& t = scene.triangles[surface.triangle];
   const auto corner = [&](int i) { return scene.positions[t[i % 3]]; };
   const Vec3 twice_area = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
   const float side = glm::dot(twice_area, geometric_normal);  // twice the area, < 0 for the back
@@ -22,7 +25,9 @@ float height_of_rounded(const Scene& scene, std::uint32_t triangle, const Vec3& 
     const float weight = glm::dot(glm::cross(corner(i + 1) - point, corner(i + 2) - point), geometric_normal) / side;
     height -= std::clamp(weight, 0.0f, 1.0f) * std::min(0.0f, glm::dot(point - corner(i), normal)) * cosine;
   }
-  return height > 0 ? height : 0;
+  if (!(height > 0)) return 0;
+  const Ray way{spawn_origin(surface, geometric_normal), geometric_normal, height};
+  return accel.transmittance(way) == Vec3(1) ? height : 0;
 }
 
 }  // namespace oriel

@@ -40,7 +40,7 @@ FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const 
   const LightSample light = t.lights.sample(receiver.position, u, v);
   const bool punctual = light.pdf == 0;
   if (max_component(light.estimate) <= 0) return {};
-  if (!((punctual ? punctual_incidence : incidence)(receiver, light.direction) > 0)) return {};
+  if (!(incidence(receiver, light.direction, punctual) > 0)) return {};
   Vec3 value = light.estimate * reflect(light.direction, punctual);
   if (max_component(value) <= 0) return {};
   if (light.pdf > 0) value *= balance(light.pdf, pdf_of(light.direction));
@@ -50,8 +50,9 @@ FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const 
   }
   const bool lamp = light.near || (light.sun && is_polished(t.accel.scene().material_of(surface.triangle)));
   if (!(light.distance > 0)) return {value, lamp, light.group, light.direction};  // touching
-  const ShadowLegs legs(receiver, {receiver.position, light.direction, light.distance, punctual, !punctual});
-  return {value * t.accel.transmittance_of_all(legs.rays(), rays), lamp, light.group, light.direction};
+  const Ray ray = leaving(receiver, {receiver.position, light.direction, light.distance, punctual, !punctual});
+  ++rays;
+  return {value * t.accel.transmittance(ray), lamp, light.group, light.direction};
 }
 
 inline void record(const Transport& t, PathGroups::Kind kind, std::uint32_t group, const Vec3& direction,
@@ -88,13 +89,14 @@ void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mi
   std::uint64_t& rays = by.rays;
   const VirtualLights& mirrored = t.lights.mirrored();
   if (mirrored.empty()) return;
-  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  const Receiver receiver = receiver_of(surface);
   const float u = sampler.next1();
   const Vec2 v = sampler.next2();
   mirrored.choose(u, [&](std::size_t i, float weight) {
-    if (mirrored[i].order > most_mirrors || !mirrored[i].may_reach(DVec3(origin), 0)) return;
-    const MirroredSample light = mirrored.sample(i, t.lights, origin, v);
-    if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;
+    if (mirrored[i].order > most_mirrors || !mirrored[i].may_reach(DVec3(receiver.position), 0)) return;
+    MirroredSample light = mirrored.sample(i, t.lights, receiver.position, v);
+    if (light.legs == 0 || !(incidence(receiver, light.direction, true) > 0)) return;
+    light.leg[0] = leaving(receiver, light.leg[0]);
     Vec3 value = weight * light.endless * light.share * reflect(light.direction, true);
     if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
     if (!is_usable(value) || max_component(value) <= 0) return;
@@ -110,11 +112,12 @@ void sample_frosted(const Tracing& by, const SurfacePoint& surface, const Reflec
   Sampler& sampler = by.sampler;
   const FrostedLights& frosted = t.lights.frosted();
   if (frosted.empty()) return;
-  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
-  frosted.choose(DVec3(origin), 0, sampler.next1(), [&](std::size_t i, float weight) {
+  const Receiver receiver = receiver_of(surface);
+  frosted.choose(DVec3(receiver.position), 0, sampler.next1(), [&](std::size_t i, float weight) {
     const Vec2 of_light = sampler.next2();
-    const MirroredSample light = frosted.sample(i, t.lights, origin, {of_light, sampler.next2()});
-    if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;
+    MirroredSample light = frosted.sample(i, t.lights, receiver.position, {of_light, sampler.next2()});
+    if (light.legs == 0 || !(incidence(receiver, light.direction) > 0)) return;
+    light.leg[0] = leaving(receiver, light.leg[0]);
     Vec3 value = weight * light.endless * reflect(light.direction, false);
     if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
     if (!is_usable(value) || max_component(value) <= 0) return;

@@ -38,8 +38,6 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
                    s.geometric_normal);
   // Seen from below its shading normal, a surface is shaded with its geometric one.
   if (glm::dot(s.normal, direction) >= 0) s.normal = s.geometric_normal;
-  if (s.normal != s.geometric_normal)
-    s.rounded = height_of_rounded(scene, hit.triangle, s.position, s.geometric_normal);
   s.front = hit.front;
   const SceneMaterial& material = scene.material_of(hit.triangle);
   s.reflects = hit.front || material.double_sided || material.solid;
@@ -52,7 +50,6 @@ SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& directio
   const SceneMaterial& material = scene.material_of(hit.triangle);
   if (material.normal_texture.image >= 0) {
     const float side = hit.front ? 1.0f : -1.0f;
-    s.rounded = 0;
     s.normal =
         facing(side * mapped_normal(scene, hit.triangle, hit.barycentric, side * s.normal, footprint), -direction);
   }
@@ -67,9 +64,21 @@ SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& directio
   return s;
 }
 
+SurfacePoint surface_at(const Accel& accel, const Hit& hit, const Vec3& direction, float width_m) {
+  SurfacePoint s = surface_at(accel.scene(), hit, direction, width_m);
+  if (accel.scene().material_of(hit.triangle).normal_texture.image < 0) s.rounded = height_of_rounded(accel, s);
+  return s;
+}
+
 SurfacePoint point_on_side(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, bool front) {
   const Vec3 normal = geometric_normal(scene, triangle);
   return geometry_at(scene, {triangle, 0, barycentric, front}, front ? -normal : normal);
+}
+
+SurfacePoint point_on_side(const Accel& accel, std::uint32_t triangle, const Vec2& barycentric, bool front) {
+  SurfacePoint s = point_on_side(accel.scene(), triangle, barycentric, front);
+  s.rounded = height_of_rounded(accel, s);
+  return s;
 }
 
 }  // namespace oriel

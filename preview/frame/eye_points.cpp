@@ -12,19 +12,20 @@ constexpr std::uint64_t kEyeStream = 0x657965;
 
 }  // namespace
 
-EyePoint eye_point(const SeenPoints& seen, std::size_t pixel, const Scene& scene) {
-  const Vec3 place(seen.place[pixel]), face(seen.face[pixel]);
-  const std::uint32_t triangle = static_cast<std::uint32_t>(seen.place[pixel].w) - 1;
-  const UVec3& t = scene.triangles[triangle];
-  float magnitude = 0;
-  for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[t[k]])));
+EyePoint eye_point(const SeenPoints& seen, std::size_t pixel, const Accel& accel) {
+  const Scene& scene = accel.scene();
+  SurfacePoint s;
+  s.triangle = static_cast<std::uint32_t>(seen.place[pixel].w) - 1;
+  s.position = Vec3(seen.place[pixel]), s.normal = Vec3(seen.normal[pixel]),
+  s.geometric_normal = Vec3(seen.face[pixel]);
+  const UVec3& t = scene.triangles[s.triangle];
+  for (int k = 0; k < 3; ++k) s.magnitude = std::max(s.magnitude, max_component(glm::abs(scene.positions[t[k]])));
+  s.rounded = height_of_rounded(accel, s);
   // But for the surface's own thickness of rounding.
-  const Vec3 normal(seen.normal[pixel]);
-  const float rounded = normal != face ? height_of_rounded(scene, triangle, place, face) : 0;
-  return {{place, normal, face, rounded}, offset_origin(place, face, magnitude)};
+  return {{s.position, s.normal, s.geometric_normal, s.rounded}, spawn_origin(s, s.geometric_normal)};
 }
 
-std::vector<EyePoint> eye_points(const SeenPoints& seen, const Scene& scene, std::uint32_t count, std::uint64_t seed,
+std::vector<EyePoint> eye_points(const SeenPoints& seen, const Accel& accel, std::uint32_t count, std::uint64_t seed,
                                  std::uint32_t pass) {
   std::vector<EyePoint> points;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -32,7 +33,7 @@ std::vector<EyePoint> eye_points(const SeenPoints& seen, const Scene& scene, std
     const Vec2 at = sampler.next2() * Vec2(IVec2(seen.width, seen.height));
     const std::size_t pixel =
         static_cast<std::size_t>(at.y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(at.x);
-    if (pixel < seen.place.size() && seen.place[pixel].w != 0) points.push_back(eye_point(seen, pixel, scene));
+    if (pixel < seen.place.size() && seen.place[pixel].w != 0) points.push_back(eye_point(seen, pixel, accel));
   }
   return points;
 }

@@ -33,7 +33,7 @@ class LampTracer {
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = y * width + x;
       if (seen_.place[i].w == 0) continue;
-      points[x] = eye_point(seen_, i, accel_.scene());
+      points[x] = eye_point(seen_, i, accel_);
     }
     for (std::size_t p = 0; p < lamps_.size(); ++p) add_point(y, p, points, light);
   }

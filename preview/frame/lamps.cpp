@@ -57,12 +57,12 @@ std::optional<Shone> shine(const LampPoint& lamp, const EyePoint& at, const Scen
   }
   const Vec3 direction = out.ray.direction;
   const bool flat = lamp.kind == LampKind::kFlat;
-  float share = (flat ? incidence : punctual_incidence)(at.at, direction) / (d2 + lamp.soft);
+  float share = incidence(at.at, direction, !flat) / (d2 + lamp.soft);
   if (flat) share *= -glm::dot(lamp.normal, direction);
   if (!(share > 0)) return std::nullopt;
   if (lamp.light != ~0u) out.light = lamp.share * punctual_intensity(scene, scene.lights[lamp.light], -direction);
   out.light *= share;
-  out.ray = ShadowLegs(at.at, out.ray).rays().back();
+  out.ray = leaving(at.at, out.ray);
   return out;
 }
 

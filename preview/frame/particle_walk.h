@@ -22,7 +22,7 @@ class ParticleWalk {
     for (int bounces = 0, passes = 0; bounces < most_bounces && passes < kMaxPasses;) {
       const Hit hit = transport_.accel.intersect(ray_);
       if (!hit) return leaves(ray_);
-      const SurfacePoint s = surface_at(transport_.accel.scene(), hit, ray_.direction);
+      const SurfacePoint s = surface_at(transport_.accel, hit, ray_.direction);
       if (s.shade.coverage < 1 && sampler_.next1() >= s.shade.coverage) {
         ray_.origin = spawn_origin(s, ray_.direction), ++passes;
         continue;

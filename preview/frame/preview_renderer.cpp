@@ -149,7 +149,7 @@ Status PreviewRenderer::add_lamps(const PreviewOptions& options, Context& contex
 // Once for each view, so that points of its passes are stratified.
 Status PreviewRenderer::share_lamps(Context& context) {
   if (passes_ > 0) return {};
-  const auto eye = eye_points(points_, scene_->scene(), kLampEyes, context.seed, 0);
+  const auto eye = eye_points(points_, *scene_->accel, kLampEyes, context.seed, 0);
   ORIEL_TRY(lamp_shares_, scene_->lamps.by_eye(eye, *scene_->accel, context));
   return {};
 }

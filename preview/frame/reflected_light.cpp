@@ -27,7 +27,7 @@ Result<std::vector<LampPoint>> reflecting_points(const PreviewScene& scene, cons
   std::vector<LampPoint> points;
   if (options.elements == 0) return points;
   const Transport transport = scene.transport();
-  const std::vector<EyePoint> eye = eye_points(seen, scene.scene(), kEyePoints, context.seed, pass);
+  const std::vector<EyePoint> eye = eye_points(seen, *scene.accel, kEyePoints, context.seed, pass);
   if (eye.empty()) return points;
   const auto first = [&](std::size_t n) { return std::span(eye).first(std::min(n, eye.size())); };
   ORIEL_TRY(const auto sources, GuidedSources::create(transport, *scene.sources, eye, pass, context));

@@ -37,7 +37,7 @@ class SpecularTracer {
     // The first object is known from the frame's own picture of items.
     const auto triangle = static_cast<std::uint32_t>(frame_.seen.place[i].w) - 1;
     const bool front = glm::dot(geometric_normal(scene, triangle), wo) >= 0;
-    SurfacePoint surface = surface_at(scene, {triangle, 0, barycentric_of(scene, triangle, place), front}, -wo);
+    SurfacePoint surface = surface_at(*scene_.accel, {triangle, 0, barycentric_of(scene, triangle, place), front}, -wo);
     Vec3 light(0);
     const OnDiffuse on_diffuse = [&](const DiffuseVertex& v) {
       light += v.weight / kPi * irradiance(v, sampler);
@@ -62,7 +62,7 @@ class SpecularTracer {
 
  private:
   Vec3 irradiance(const DiffuseVertex& v, Sampler& sampler) const {
-    const SurfacePoint surface = point_on_side(scene_.scene(), v.triangle, v.barycentric, v.front);
+    const SurfacePoint surface = point_on_side(*scene_.accel, v.triangle, v.barycentric, v.front);
     if (const auto seen = seen_again(surface)) return *seen;
     return from_elements(surface, sampler) + from_lamps(surface, sampler) + from_even_sky(surface, sampler);
   }
@@ -106,16 +106,14 @@ class SpecularTracer {
   Vec3 from_lamps(const SurfacePoint& surface, Sampler& sampler) const {
     const Receiver receiver = receiver_of(surface);
     Vec3 sum(0);
-    std::uint64_t rays = 0;
     for (int i = 0; i < kLampPoints && !transport_.lights.empty(); ++i) {
       const float u = sampler.next1();
       const LightSample light = transport_.lights.sample(receiver.position, u, sampler.next2());
       if (max_component(light.estimate) <= 0) continue;
       const bool punctual = light.pdf == 0;
-      const ShadowLegs legs(receiver, {receiver.position, light.direction, light.distance});
-      const Vec3 passed = light.distance > 0 ? transport_.accel.transmittance_of_all(legs.rays(), rays) : Vec3(1);
-      const Vec3 value =
-          (punctual ? punctual_incidence : incidence)(receiver, light.direction) * light.estimate * passed;
+      const Ray ray = leaving(receiver, {receiver.position, light.direction, light.distance});
+      const Vec3 passed = light.distance > 0 ? transport_.accel.transmittance(ray) : Vec3(1);
+      const Vec3 value = incidence(receiver, light.direction, punctual) * light.estimate * passed;
       if (is_usable(value)) sum += value;
     }
     return sum / static_cast<float>(kLampPoints);

@@ -170,7 +170,7 @@ void DirectGroup::sample_punctual_light(std::uint32_t l) {
     const Point& point = points_[p];
     Sampler sampler(d_.seed_ + seeds::kSharpLight + l, stream_of(list_[point.texel], point.half), point.k);
     const LightSample s = d_.t_.lights.sample_light(l, point.sample_point.origin, sampler.next2());
-    const Vec3 value = s.estimate * punctual_incidence(point.sample_point.receiver(), s.direction);
+    const Vec3 value = s.estimate * incidence(point.sample_point.receiver(), s.direction, true);
     if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
     tallies_[point.texel].unoccluded[point.half] += value;
     add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, true, false}, value);
@@ -189,12 +189,13 @@ void DirectGroup::sample_mirrored_light(std::uint32_t i) {
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
     Sampler sampler(d_.seed_ + seeds::kMirroredLight + i, stream_of(list_[point.texel], point.half), point.k);
-    const MirroredSample s = mirrored.sample(i, d_.t_.lights, point.sample_point.origin, sampler.next2());
-    const Vec3 value = s.endless * punctual_incidence(point.sample_point.receiver(), s.direction);
+    MirroredSample s = mirrored.sample(i, d_.t_.lights, point.sample_point.origin, sampler.next2());
+    const Vec3 value = s.endless * incidence(point.sample_point.receiver(), s.direction, true);
     if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
     tallies_[point.texel].unoccluded[point.half] += value;
     tallies_[point.texel].proposal_weight[point.half] += value;
     if (s.legs == 0) continue;
+    s.leg[0] = leaving(point.sample_point.receiver(), s.leg[0]);
     rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
     shadow_rays_.push_back({p, value, s.direction, kNoGroup, s.legs, true, s.share});
   }
@@ -213,12 +214,12 @@ void DirectGroup::sample_frosted() {
       Sampler sampler(d_.seed_ + seeds::kFrostedLight + pick, stream_of(list_[point.texel], point.half), point.k);
       frosted.choose(DVec3(point.sample_point.origin), 0, sampler.next1(), [&](std::size_t i, float weight) {
         const Vec2 of_light = sampler.next2();
-        const MirroredSample s =
-            frosted.sample(i, d_.t_.lights, point.sample_point.origin, {of_light, sampler.next2()});
+        MirroredSample s = frosted.sample(i, d_.t_.lights, point.sample_point.origin, {of_light, sampler.next2()});
         const float share =
             weight * incidence(point.sample_point.receiver(), s.direction) / static_cast<float>(kFrosted);
         const Vec3 value = s.endless * share;
         if (s.legs == 0 || !(max_component(value) > 0) || !is_usable(point, value)) return;
+        s.leg[0] = leaving(point.sample_point.receiver(), s.leg[0]);
         rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
         shadow_rays_.push_back({p, value, s.direction, s.group, s.legs});
       });
@@ -231,9 +232,8 @@ void DirectGroup::add_shadow_ray(std::uint32_t point, const Ray& ray, const Vec3
   const Point& p = points_[point];
   tallies_[p.texel].proposal_weight[p.half] += weight;
   if (ray.max_distance > 0) {
-    const ShadowLegs legs(p.sample_point.receiver(), ray);
-    rays_to_trace_.insert(rays_to_trace_.end(), legs.rays().begin(), legs.rays().end());
-    shadow_rays_.push_back({point, weight, ray.direction, group, legs.count(), ray.past_solids});
+    rays_to_trace_.push_back(leaving(p.sample_point.receiver(), ray));
+    shadow_rays_.push_back({point, weight, ray.direction, group, 1, ray.past_solids});
   } else {
     add_transmitted({point, weight, ray.direction, group, 0, ray.past_solids}, Vec3(1));  // touching
   }
@@ -249,8 +249,7 @@ void DirectGroup::add_transmitted(const ShadowRay& shadow_ray, const Vec3& trans
                [&](std::uint32_t group, const Vec3& part) { grouped_transmitted_[p.half].of(p.texel)[group] += part; });
   if (!directional_) return;
   const Receiver receiver = p.sample_point.receiver();
-  const float cosine =
-      std::max((shadow_ray.punctual ? punctual_incidence : incidence)(receiver, shadow_ray.direction), 1e-6f);
+  const float cosine = std::max(incidence(receiver, shadow_ray.direction, shadow_ray.punctual), 1e-6f);
   tally.transmitted_moments += moments_of(luminance(light) / cosine, shadow_ray.direction);
 }
 
@@ -344,7 +343,7 @@ void DirectGroup::sample_many_punctual(const Sample& sample) {
       const LightSample s = sample(point, sampler);
       if (s.pdf > 0) continue;  // an emissive surface, or the sky
       const Vec3 value =
-          s.estimate * (punctual_incidence(point.sample_point.receiver(), s.direction) / static_cast<float>(kPicks));
+          s.estimate * (incidence(point.sample_point.receiver(), s.direction, true) / static_cast<float>(kPicks));
       if (max_component(value) > 0 && is_usable(point, value))
         add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, true, false}, value, s.group);
     }

@@ -163,13 +163,14 @@ void BrightTexels::keep_strongest() {
 
 BrightTexels::ImportanceCdf BrightTexels::importance_cdf(const SamplePoint& receiver) const {
   ImportanceCdf until;
+  const Vec3 up = receiver.receiver().horizon();
   float sum = 0;
   for (const Cluster& c : clusters_) {
     const Vec3 off = c.centre - receiver.origin;
     const float distance = glm::length(off), r = c.radius_m;
     // An upper bound of both cosines over the cluster's extent; a flat cluster extends in its own plane only.
-    const float turned = glm::dot(receiver.geometric_normal, c.normal), up = std::max(1 - turned * turned, 0.01f);
-    const float here = std::min((glm::dot(off, receiver.geometric_normal) + r * std::sqrt(up)) / (distance + r), 1.0f);
+    const float turned = glm::dot(up, c.normal), tall = std::sqrt(std::max(1 - turned * turned, 0.01f));
+    const float here = std::min((glm::dot(off, up) + r * tall) / (distance + r), 1.0f);
     const float there = std::min((r - glm::dot(off, c.normal)) / (distance + r), 1.0f);
     if (here > 0 && there > 0)
       sum += c.power * (distance > kFar_m + r ? std::max(c.shines_far, 0.5f / kShineRays) : 1.0f) * here * there /

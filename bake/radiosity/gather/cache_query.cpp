@@ -90,7 +90,7 @@ void CacheQuery::follow_layers(const Ray& ray, const GatherRay& info, const Hit&
     t.grouped = &path_groups;
   }
   const PathLight light =
-      specular_light(t, {surface_at(scene(), hit, ray.direction), -ray.direction}, sampler, results.rays, on_diffuse);
+      specular_light(t, {surface_at(t.accel, hit, ray.direction), -ray.direction}, sampler, results.rays, on_diffuse);
   add_to_groups(number, path_groups.light(), results);
   results.light[number] = (light.scattered + (lamps ? light.lamps : Vec3(0))) / chance;
   for (std::size_t i = before; i < results.links.size(); ++i) results.links[i].weight /= chance;

@@ -163,6 +163,10 @@ class GroupGather {
     const std::uint32_t region = cached_.bright->region(results_.places[i]);
     if (sent_[i].region != kNoTexel && sent_[i].region != region) return 0;
     if (region == kNoTexel) return kPi;
+    // By a rounded surface two ways lead to what lies barely over the facet: light samples go straight.
+    const Ray& ray = batch_[i];
+    const GatherPoint& point = m.point[infos_[i].sample % kStoredPoints];
+    if (point.ray_to(ray.origin + hit.distance * ray.direction).first.origin != ray.origin) return kPi;
     const float incidence = infos_[i].incidence;
     return incidence / (incidence / kPi + cached_.bright->density(m.cdf, region, batch_[i], hit));
   }

@@ -21,17 +21,19 @@ class GatherPoint {
     Vec3 direction = frame_ * square_to_cosine_hemisphere(u);
     if (tilted_)
       if (const float height = glm::dot(direction, point_.geometric_normal); height < 0) {
-        if (point_.rounded > 0) return {point_.origin + point_.rounded * point_.geometric_normal, direction};
+        if (point_.rounded > 0) return {over(), direction};
         direction -= 2 * height * point_.geometric_normal;
       }
     return {point_.origin, direction};
   }
-  // A ray to a point, and the distance to it, m; distance 0 if the point lies below the surface.
+  // A ray to a point, as ray() may give it, and the distance to it, m; distance 0 if no ray leads there.
   std::pair<Ray, float> ray_to(const Vec3& point) const {
-    const Vec3 off = point - point_.origin;
+    const bool above = glm::dot(point - point_.origin, point_.geometric_normal) > 0;
+    if (!above && !(point_.rounded > 0)) return {};
+    const Vec3 origin = above ? point_.origin : over(), off = point - origin;
     const float distance = glm::length(off);
-    if (!(distance > 0) || !(glm::dot(off, point_.geometric_normal) > 0)) return {};
-    return {Ray{point_.origin, off / distance}, distance};
+    if (!(distance > 0) || !(glm::dot(off, point_.receiver().horizon()) > 0)) return {};
+    return {Ray{origin, off / distance}, distance};
   }
   // The clamped cosine of that direction: π times the density of ray() there.
   float incidence(const Vec3& direction) const {
@@ -39,6 +41,8 @@ class GatherPoint {
   }
 
  private:
+  Vec3 over() const { return point_.origin + point_.rounded * point_.geometric_normal; }  // on the rounded surface
+
   Mat3 frame_{1};
   SamplePoint point_;
   bool tilted_ = false;

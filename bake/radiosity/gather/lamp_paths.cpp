@@ -98,7 +98,7 @@ class LampWalk {
       }
       power_ *= medium_.passed(t_.accel.scene(), hit);
       if (bounces_ > 0 && !arrive(hit)) break;
-      SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray_.direction);
+      SurfacePoint surface = surface_at(t_.accel, hit, ray_.direction);
       const bool passes_by = surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage;
       if (starts && passes_by) break;
       if (!passes_by && (!surface.reflects || bounces_ >= t_.options.max_bounces)) break;
@@ -145,7 +145,7 @@ class LampWalk {
   bool arrive(const Hit& hit) {
     const std::uint32_t texel = hit.front ? texels_.find(hit.triangle, hit.barycentric) : kNoTexel;
     if (texel == kNoTexel) return true;
-    const SurfacePoint on_texel = point_on_side(t_.accel.scene(), hit.triangle, hit.barycentric);
+    const SurfacePoint on_texel = point_on_side(t_.accel, hit.triangle, hit.barycentric);
     const Vec3 from = -ray_.direction;
     const float cosine = glm::dot(on_texel.geometric_normal, from);
     // A point that a wall separates from its texel is outside the area of any texel.
@@ -219,7 +219,7 @@ class LampWalk {
 
   Vec3 weight(const Hit& hit, const BsdfSample& sample, const Shading& chosen, const Vec3& wi, const Vec3& wo) const {
     if (sample.delta) return sample.weight;
-    SurfacePoint seen = surface_at(t_.accel.scene(), hit, -wo);
+    SurfacePoint seen = surface_at(t_.accel, hit, -wo);
     seen.shade.diffuse = Vec3(0);
     const float pdf = chosen.pdf(wo);
     return pdf > 0 ? Shading(seen, wo).eval(wi) / pdf : Vec3(0);

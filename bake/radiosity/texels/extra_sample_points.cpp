@@ -23,7 +23,7 @@ SurfacePoint texel_candidate(const LightmapScene& scene, const Texels& texels, c
   Sampler sampler(seed + static_cast<std::uint64_t>(of.half), stream, of.k);
   const Vec2 uv = sampler.next2();
   const TexelPoint point = sample_texel(scene.atlas, map, texels.index[i], Vec3(uv, sampler.next1()));
-  return point_on_side(scene.transport.accel.scene(), point.triangle, point.barycentric);
+  return point_on_side(scene.transport.accel, point.triangle, point.barycentric);
 }
 
 SamplePoint sample_point_of(const SurfacePoint& s) {

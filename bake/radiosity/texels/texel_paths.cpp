@@ -25,7 +25,7 @@ void TexelPaths::add(const MapTexel& texel, const PathNumbers& paths, TexelSums&
 
 SurfacePoint TexelPaths::point_of(const MapTexel& texel, const Vec3& u) const {
   const TexelPoint point = sample_texel(scene_.atlas, scene_.map[texel.page], texel.index, u);
-  return point_on_side(t_.accel.scene(), point.triangle, point.barycentric);
+  return point_on_side(t_.accel, point.triangle, point.barycentric);
 }
 
 // True if one of 64 points spread over the texel is buried: only then does every path test its own point. Most texels

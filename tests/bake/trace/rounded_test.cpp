@@ -19,7 +19,7 @@ Light sun(const Vec3& direction) {
 }
 
 struct Lit {
-  Vec3 normal{0};
+  Vec3 normal{0}, facet{0};
   float lux = 0, rounded = 0;
   bool turned_away = false;
 };
@@ -34,9 +34,9 @@ std::vector<Lit> lit_points(test::SceneParts& parts, std::uint32_t triangles) {
   std::uint64_t rays = 0;
   for (std::uint32_t t = 0; t < triangles; ++t)
     for (const Vec2& at : {Vec2(0.3f, 0.4f), Vec2(0.05f, 0.05f), Vec2(0.1f, 0.8f), Vec2(0.49f, 0.49f)}) {
-      const SurfacePoint p = point_on_side(scene, t, at);
+      const SurfacePoint p = point_on_side(accel, t, at);
       Sampler sampler(1, t, 0);
-      found.push_back({p.normal, sample_irradiance(transport, p, sampler, rays).direct.g, p.rounded,
+      found.push_back({p.normal, p.geometric_normal, sample_irradiance(transport, p, sampler, rays).direct.g, p.rounded,
                        glm::dot(p.geometric_normal, scene.lights[0].direction) >= 0});
     }
   return found;
@@ -65,13 +65,11 @@ TEST(Rounded, ALampIsNotHiddenByItself) {
   const Scene scene = parts.finish();
   const Accel accel = *Accel::build(scene);
   for (std::uint32_t t = 0; t < 80; ++t) {
-    const Receiver r = receiver_of(point_on_side(scene, t, Vec2(0.3f)));
+    const Receiver r = receiver_of(point_on_side(accel, t, Vec2(0.3f)));
     const Vec3 to = Vec3(0.45f, 0.4499f, 0.45f) - r.position;
     const float distance = glm::length(to);
     if (glm::dot(r.geometric_normal, to) >= 0 || glm::dot(r.normal, to) <= 0) continue;
-    std::uint64_t rays = 0;
-    const ShadowLegs legs(r, {r.position, to / distance, distance});
-    EXPECT_EQ(accel.transmittance_of_all(legs.rays(), rays), Vec3(1)) << t;
+    EXPECT_EQ(accel.transmittance(leaving(r, {r.position, to / distance, distance})), Vec3(1)) << t;
   }
 }
 
@@ -81,6 +79,44 @@ TEST(Rounded, WhatIsCloseStillShades) {
   parts.box("shell", parts.diffuse(Vec3(0)), Vec3(-0.401f), Vec3(0.401f), true);
   parts.scene().lights = {sun({-1, 0, 0})};
   for (const Lit& p : lit_points(parts, 80)) EXPECT_EQ(p.lux, 0);
+}
+
+// A shell of the same facets, which lie under the ball's rounded surface.
+TEST(Rounded, NoRayLeavesPastALining) {
+  test::SceneParts parts;
+  parts.sphere("ball", parts.diffuse(Vec3(0)), {0, 0, 0}, 0.4f, 1);
+  parts.sphere("shell", parts.diffuse(Vec3(0)), {0, 0, 0}, 0.405f, 1, true);
+  parts.scene().sky = Vec3(1000);
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  const LightSet lights(scene);
+  const Transport transport{accel, lights, {}};
+  std::uint64_t rays = 0;
+  for (std::uint32_t t = 0; t < 80; ++t) {
+    const SurfacePoint p = point_on_side(accel, t, Vec2(0.3f, 0.35f));
+    for (std::uint32_t k = 0; k < 256; ++k) {
+      Sampler sampler(1, t, k);
+      ASSERT_EQ(sample_irradiance(transport, p, sampler, rays).direct, Vec3(0)) << t;
+    }
+  }
+}
+
+// A sun shines on a mirrored floor beside the ball.
+TEST(Rounded, LightOfMirrorsGoesAsLightDoes) {
+  test::SceneParts parts;
+  parts.sphere("ball", parts.diffuse(Vec3(0)), {0, 3, 0}, 0.4f, 1);
+  SceneMaterial mirror;
+  mirror.metallic = 1, mirror.roughness = 0;
+  parts.quad("mirror", parts.add(mirror), {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  parts.scene().lights = {sun(glm::normalize(Vec3(-1, -1, 0)))};
+  const Vec3 from = -parts.scene().lights[0].direction, mirrored(from.x, -from.y, 0);
+  int turned_away = 0;
+  for (const Lit& p : lit_points(parts, 80)) {
+    const float cosine = std::max(0.0f, glm::dot(p.normal, mirrored));
+    EXPECT_NEAR(p.lux, kSun_lux * (std::max(0.0f, glm::dot(p.normal, from)) + cosine), 0.5f) << cosine;
+    turned_away += glm::dot(p.facet, mirrored) <= 0 && cosine > 0 ? 1 : 0;
+  }
+  EXPECT_GE(turned_away, 10);
 }
 
 TEST(Rounded, HollowsAndEdgesAreNot) {

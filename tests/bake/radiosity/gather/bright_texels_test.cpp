@@ -73,6 +73,47 @@ TEST(BrightTexels, BesideABoxToo) {
   expect_same_light(true);
 }
 
+// Facets of a coarse ball that a bright square shines on from below.
+TEST(BrightTexels, RoundedBodiesGetAllOfIt) {
+  SceneParts parts;
+  const auto black = parts.diffuse(Vec3(0));
+  parts.sphere("ball", black, {0, 1, 0}, 0.4f, 1);
+  parts.quad("square", parts.diffuse(Vec3(1)), {-0.2f, 0, 0.2f}, {0.4f, 0, 0}, {0, 0, -0.4f});
+  parts.quad("rest", black, {1, 0, 2}, {4, 0, 0}, {0, 0, -4});
+  const Listed listed(parts.finish(), 0.05f);
+  const Transport transport = listed.transport();
+  Context context;
+  const TexelGraph graph = *find_neighbours(transport, listed.texels, context);
+  std::vector<Vec3> light;
+  for (const Vec3& albedo : listed.texels.albedo) light.push_back(1000.0f * albedo);
+  CachedLight cached = cache_light(listed.texels, graph, light, context);
+  const CacheQuery query(transport, listed.texels, true, 1);
+  const ExtraSamplePoints sample_points = listed.sample_points(transport);
+  const std::vector<Vec3> gathered(light.size(), Vec3(1));
+  const std::vector<float> importance(light.size(), 1.0f);
+  const BrightTexels bright(query, {listed.texels, sample_points, cached, gathered, importance}, 1);
+  ASSERT_FALSE(bright.empty());
+  std::vector<std::uint32_t> turned_away;
+  for (const std::uint32_t i : listed.floor)
+    if (std::ranges::any_of(listed.texels.sample_points[i], [](const SamplePoint& p) {
+          const Vec3 to = glm::normalize(-p.origin);  // the middle of the square
+          return glm::dot(p.normal, to) > 0 && glm::dot(p.geometric_normal, to) < 0;
+        }))
+      turned_away.push_back(i);
+  const auto flux = [&](std::uint32_t rays) {
+    HalfSums sums(light.size(), false);
+    EXPECT_TRUE((FinalGather{sample_points, query, cached}.run(turned_away, rays, context, sums)));
+    double sum = 0;
+    for (const std::uint32_t i : turned_away) sum += listed.texels.area_m2[i] * sums.mean(i).g;
+    return sum;
+  };
+  const double by_other_rays = flux(1 << 16);
+  cached.bright = &bright;
+  const double aimed = flux(1 << 12);
+  ASSERT_GT(turned_away.size(), 50u);
+  EXPECT_NEAR(aimed / by_other_rays, 1, 0.005);
+}
+
 TEST(BrightTexels, EvenLightHasNone) {
   SceneParts parts;
   parts.box("room", parts.diffuse(Vec3(0.7f)), Vec3(0), Vec3(4, 3, 4), true);
