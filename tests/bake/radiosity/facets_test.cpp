@@ -126,5 +126,46 @@ TEST_P(Facets, LampsAllAroundAreAnEvenSky) {
 
 INSTANTIATE_TEST_SUITE_P(Estimators, Facets, ::testing::Values(Estimator::kReference, Estimator::kCached));
 
+// A smooth column of 24 sides in a sun. A texel that the end of a chart halves has the mean of its half, and is shown
+// as if it were its middle's: a quarter of its width away.
+TEST(Facets, SmoothColumnsInASunAreLitAsCylinders) {
+  constexpr int kSides = 24;
+  constexpr float kRadius = 0.4f, kHeight = 3, kTexel = 0.1f, kSun_lux = 10000;
+  SceneParts parts;
+  std::vector<Vec3> positions, normals;
+  std::vector<UVec3> triangles;
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const float angle = 2 * kPi * static_cast<float>(i) / kSides;
+    const Vec3 normal(std::cos(angle), 0, std::sin(angle));
+    positions.push_back(kRadius * normal), positions.push_back(kRadius * normal + Vec3(0, kHeight, 0));
+    normals.insert(normals.end(), 2, normal);
+    const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % kSides);
+    triangles.push_back({a, a + 1, b}), triangles.push_back({b, a + 1, b + 1});
+  }
+  parts.mesh("column", parts.diffuse(Vec3(0.6f)), positions, normals, triangles);
+  Light sun;
+  sun.type = LightType::kDirectional;
+  sun.direction = glm::normalize(Vec3(-0.86f, 0, -0.5f));
+  sun.intensity = Vec3(kSun_lux);
+  parts.scene().lights.push_back(sun);
+  const test::Baked b = test::bake(parts.finish(), kTexel, test::cached_options(0.02));
+  float worst = 0;
+  int far_off = 0, all = 0;
+  for (std::uint32_t t = 0; t < b.scene.triangles.size(); ++t)
+    for (std::uint32_t k = 0; k < 256; ++k) {
+      const SurfacePoint p = point_on_side(b.scene, t, square_to_triangle(Sampler(1, t, k).next2()));
+      if (p.position.y < kTexel || p.position.y > kHeight - kTexel) continue;
+      const LightmapPage& page = b.radiosity.pages[static_cast<std::size_t>(b.atlas.page[t])];
+      const float cosine = -glm::dot(p.normal, sun.direction);
+      const auto& corner = b.atlas.uv[t];
+      const Vec2 uv = corner[0] + p.barycentric.x * (corner[1] - corner[0]) + p.barycentric.y * (corner[2] - corner[0]);
+      const float off = irradiance_at(page, uv).g / kSun_lux - std::max(0.0f, cosine);
+      worst = std::max(worst, std::abs(off));
+      far_off += std::abs(off) > 0.03f, ++all;
+    }
+  EXPECT_LT(worst, 0.25f * kTexel / kRadius);
+  EXPECT_LT(far_off, 0.02 * all) << "more than 3 % off";
+}
+
 }  // namespace
 }  // namespace oriel
