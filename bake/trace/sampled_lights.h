@@ -30,10 +30,8 @@ struct FromEmitter {
 template <class Reflect, class Pdf>
 FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const Reflect& reflect, const Pdf& pdf_of) {
   const Transport& t = by.transport;
-  Sampler& sampler = by.sampler;
-  std::uint64_t& rays = by.rays;
-  const float u = sampler.next1();
-  const Vec2 v = sampler.next2();
+  const float u = by.sampler.next1();
+  const Vec2 v = by.sampler.next2();
   if (t.lights.empty()) return {};
   // Sampled from where the shadow ray starts: close to a lamp over a large floor the offset is not small.
   const Receiver receiver = receiver_of(surface);
@@ -51,7 +49,7 @@ FromEmitter sample_lights(const Tracing& by, const SurfacePoint& surface, const 
   const bool lamp = light.near || (light.sun && is_polished(t.accel.scene().material_of(surface.triangle)));
   if (!(light.distance > 0)) return {value, lamp, light.group, light.direction};  // touching
   const Ray ray = leaving(receiver, {receiver.position, light.direction, light.distance, punctual, !punctual});
-  ++rays;
+  ++by.rays;
   return {value * t.accel.transmittance(ray), lamp, light.group, light.direction};
 }
 
@@ -85,13 +83,11 @@ template <class Reflect, class Add>
 void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mirrors, const Reflect& reflect,
                      const Add& add) {
   const Transport& t = by.transport;
-  Sampler& sampler = by.sampler;
-  std::uint64_t& rays = by.rays;
   const VirtualLights& mirrored = t.lights.mirrored();
   if (mirrored.empty()) return;
   const Receiver receiver = receiver_of(surface);
-  const float u = sampler.next1();
-  const Vec2 v = sampler.next2();
+  const float u = by.sampler.next1();
+  const Vec2 v = by.sampler.next2();
   mirrored.choose(u, [&](std::size_t i, float weight) {
     if (mirrored[i].order > most_mirrors || !mirrored[i].may_reach(DVec3(receiver.position), 0)) return;
     MirroredSample light = mirrored.sample(i, t.lights, receiver.position, v);
@@ -100,7 +96,7 @@ void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mi
     Vec3 value = weight * light.endless * light.share * reflect(light.direction, true);
     if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
     if (!is_usable(value) || max_component(value) <= 0) return;
-    value *= t.accel.transmittance_of_all(light.rays(), rays);
+    value *= t.accel.transmittance_of_all(light.rays(), by.rays);
     if (max_component(value) > 0) add(light.direction, light.group, value);
   });
 }

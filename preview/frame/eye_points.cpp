@@ -13,13 +13,9 @@ constexpr std::uint64_t kEyeStream = 0x657965;
 }  // namespace
 
 EyePoint eye_point(const SeenPoints& seen, std::size_t pixel, const Accel& accel) {
-  const Scene& scene = accel.scene();
-  SurfacePoint s;
-  s.triangle = static_cast<std::uint32_t>(seen.place[pixel].w) - 1;
-  s.position = Vec3(seen.place[pixel]), s.normal = Vec3(seen.normal[pixel]),
+  SurfacePoint s = point_on_side(accel.scene(), static_cast<std::uint32_t>(seen.place[pixel].w) - 1, Vec2(0));
+  s.position = Vec3(seen.place[pixel]), s.normal = Vec3(seen.normal[pixel]);
   s.geometric_normal = Vec3(seen.face[pixel]);
-  const UVec3& t = scene.triangles[s.triangle];
-  for (int k = 0; k < 3; ++k) s.magnitude = std::max(s.magnitude, max_component(glm::abs(scene.positions[t[k]])));
   s.rounded = height_of_rounded(accel, s);
   // But for the surface's own thickness of rounding.
   return {{s.position, s.normal, s.geometric_normal, s.rounded}, spawn_origin(s, s.geometric_normal)};

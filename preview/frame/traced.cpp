@@ -110,10 +110,9 @@ class SpecularTracer {
       const float u = sampler.next1();
       const LightSample light = transport_.lights.sample(receiver.position, u, sampler.next2());
       if (max_component(light.estimate) <= 0) continue;
-      const bool punctual = light.pdf == 0;
       const Ray ray = leaving(receiver, {receiver.position, light.direction, light.distance});
       const Vec3 passed = light.distance > 0 ? transport_.accel.transmittance(ray) : Vec3(1);
-      const Vec3 value = incidence(receiver, light.direction, punctual) * light.estimate * passed;
+      const Vec3 value = incidence(receiver, light.direction, light.pdf == 0) * light.estimate * passed;
       if (is_usable(value)) sum += value;
     }
     return sum / static_cast<float>(kLampPoints);

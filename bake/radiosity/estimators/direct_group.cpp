@@ -248,8 +248,7 @@ void DirectGroup::add_transmitted(const ShadowRay& shadow_ray, const Vec3& trans
     each_owner(scene(), shadow_ray.group, shadow_ray.direction, light,
                [&](std::uint32_t group, const Vec3& part) { grouped_transmitted_[p.half].of(p.texel)[group] += part; });
   if (!directional_) return;
-  const Receiver receiver = p.sample_point.receiver();
-  const float cosine = std::max(incidence(receiver, shadow_ray.direction, shadow_ray.punctual), 1e-6f);
+  const float cosine = std::max(incidence(p.sample_point.receiver(), shadow_ray.direction, shadow_ray.punctual), 1e-6f);
   tally.transmitted_moments += moments_of(luminance(light) / cosine, shadow_ray.direction);
 }
 

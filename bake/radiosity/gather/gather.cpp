@@ -164,9 +164,8 @@ class GroupGather {
     if (sent_[i].region != kNoTexel && sent_[i].region != region) return 0;
     if (region == kNoTexel) return kPi;
     // By a rounded surface two ways lead to what lies barely over the facet: light samples go straight.
-    const Ray& ray = batch_[i];
-    const GatherPoint& point = m.point[infos_[i].sample % kStoredPoints];
-    if (point.ray_to(ray.origin + hit.distance * ray.direction).first.origin != ray.origin) return kPi;
+    const Vec3 met = batch_[i].origin + hit.distance * batch_[i].direction;
+    if (m.point[infos_[i].sample % kStoredPoints].ray_to(met).first.origin != batch_[i].origin) return kPi;
     const float incidence = infos_[i].incidence;
     return incidence / (incidence / kPi + cached_.bright->density(m.cdf, region, batch_[i], hit));
   }

@@ -29,7 +29,6 @@ class GatherPoint {
   // A ray to a point, as ray() may give it, and the distance to it, m; distance 0 if no ray leads there.
   std::pair<Ray, float> ray_to(const Vec3& point) const {
     const bool above = glm::dot(point - point_.origin, point_.geometric_normal) > 0;
-    if (!above && !(point_.rounded > 0)) return {};
     const Vec3 origin = above ? point_.origin : over(), off = point - origin;
     const float distance = glm::length(off);
     if (!(distance > 0) || !(glm::dot(off, point_.receiver().horizon()) > 0)) return {};
