@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bake/atlas/charts.h"
+#include "bake/scene/box_tree.h"
 
 namespace oriel {
 namespace {
@@ -21,23 +22,23 @@ double distance_to(const ChartCut& cut, const DVec3& p) {
 
 // Cuts the surface under walls.
 void part_rooms(const Scene& scene, const Surface& surface, std::vector<std::uint32_t>& across) {
-  if (scene.cuts.empty()) return;
-  DVec3 lower(std::numeric_limits<double>::max()), upper(-lower);
-  for (std::uint32_t v = 0; v < surface.vertex_count; ++v) {
-    const DVec3 p(scene.positions[surface.first_vertex + v]);
-    lower = glm::min(lower, p - kCutTolerance_m), upper = glm::max(upper, p + kCutTolerance_m);
-  }
-  std::vector<ChartCut> near;
+  TreeBox all;
+  for (std::uint32_t v = 0; v < surface.vertex_count; ++v) all.add(DVec3(scene.positions[surface.first_vertex + v]));
+  std::vector<ChartCut> cuts;
   for (const ChartCut& cut : scene.cuts)
-    if (glm::all(glm::lessThan(DVec3(glm::min(cut.from, cut.to)), upper)) &&
-        glm::all(glm::greaterThan(DVec3(glm::max(cut.from, cut.to)), lower)))
-      near.push_back(cut);
-  for (std::uint32_t edge = 0; edge < across.size() && !near.empty(); ++edge) {
+    if (glm::all(glm::lessThan(DVec3(glm::min(cut.from, cut.to)), all.upper + cut.tolerance_m())) &&
+        glm::all(glm::greaterThan(DVec3(glm::max(cut.from, cut.to)), all.lower - cut.tolerance_m())))
+      cuts.push_back(cut);
+  if (cuts.empty()) return;
+  const BoxTree tree = tree_of(cuts);
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t edge = 0; edge < across.size(); ++edge) {
     if (across[edge] == kNoEdge) continue;
     const Triangle3 t = triangle_corners(scene, surface.first_triangle + edge / 3);
     const DVec3 a = t[edge % 3], b = t[(edge + 1) % 3];
-    const auto on = [&](const ChartCut& cut) {
-      return std::max(distance_to(cut, a), distance_to(cut, b)) < kCutTolerance_m;
+    tree.near({glm::min(a, b), glm::max(a, b)}, near);
+    const auto on = [&](std::uint32_t i) {
+      return std::max(distance_to(cuts[i], a), distance_to(cuts[i], b)) < cuts[i].tolerance_m();
     };
     if (std::ranges::any_of(near, on)) across[across[edge]] = kNoEdge, across[edge] = kNoEdge;
   }

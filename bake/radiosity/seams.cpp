@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
 
 #include "bake/jobs/parallel.h"
+#include "bake/scene/box_tree.h"
 #include "bake/trace/buried.h"
 
 namespace oriel {
@@ -89,35 +88,11 @@ int point_count(const RimEdge& edge) {
   return std::max(1, static_cast<int>(std::ceil(kPointsPerTexel * edge.length_texels)));
 }
 
-// Edges by their boxes. Their lengths and tolerances span orders of magnitude where far things have large texels, so no
-// grid of one size fits them.
-class EdgeTree {
- public:
-  explicit EdgeTree(std::span<const RimEdge> edges) {
-    std::vector<Entry> entries;
-    for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      const DVec3 a = edges[i].a, b = edges[i].a + edges[i].along;
-      entries.emplace_back(Box(point(glm::min(a, b)), point(glm::max(a, b))), i);
-    }
-    tree_ = Tree(entries);
-  }
-
-  // Every edge within that distance of p, and others: ascending.
-  void near(const DVec3& p, double distance, std::vector<std::uint32_t>& found) const {
-    found.clear();
-    const auto query = boost::geometry::index::intersects(Box(point(p - distance), point(p + distance)));
-    for (auto it = tree_.qbegin(query); it != tree_.qend(); ++it) found.push_back(it->second);
-    std::sort(found.begin(), found.end());
-  }
-
- private:
-  using Point = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
-  using Box = boost::geometry::model::box<Point>;
-  using Entry = std::pair<Box, std::uint32_t>;
-  using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>>;
-  static Point point(const DVec3& p) { return {p.x, p.y, p.z}; }
-  Tree tree_;
-};
+BoxTree tree_of(std::span<const RimEdge> edges) {
+  std::vector<TreeBox> boxes(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) boxes[i].add(edges[i].a), boxes[i].add(edges[i].a + edges[i].along);
+  return BoxTree(boxes);
+}
 
 class SeamFinder {
  public:
@@ -128,7 +103,7 @@ class SeamFinder {
         pages_(pages),
         seed_(seed),
         edges_(rim_edges(scene_, atlas)),
-        tree_(edges_) {}
+        tree_(tree_of(edges_)) {}
 
   std::size_t edge_count() const { return edges_.size(); }
 
@@ -195,7 +170,7 @@ class SeamFinder {
     const DVec3 p = own.a + own.along * a.at;
     const double tolerance = kTolerance * own.texel_m + 4e-7 * a.surface.magnitude;
     double least = 1e300;
-    tree_.near(p, tolerance, near);
+    tree_.near({p - tolerance, p + tolerance}, near);
     for (const std::uint32_t i : near) {
       const RimEdge& other = edges_[i];
       if (std::tie(other.texel_m, i) <= std::tie(own.texel_m, a.edge)) continue;
@@ -257,7 +232,7 @@ class SeamFinder {
   std::span<const LightmapPage> pages_;
   std::uint64_t seed_;
   std::vector<RimEdge> edges_;
-  EdgeTree tree_;
+  BoxTree tree_;
 };
 
 }  // namespace

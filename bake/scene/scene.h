@@ -158,8 +158,14 @@ struct SkyParts {
 // A straight line in a flat surface, on edges of its triangles, at which charts end: under a wall that parts two rooms.
 struct ChartCut {
   Vec3 from{0}, to{0};  // scene space
+
+  // From it to the ends of edges on it, at most: a millimetre, or eight steps of a float far from zero, where those
+  // ends and its own are rounded.
+  double tolerance_m() const {
+    const Vec3 most = glm::max(glm::abs(from), glm::abs(to));
+    return std::max(1e-3, 0x1p-20 * std::max({most.x, most.y, most.z}));
+  }
 };
-inline constexpr double kCutTolerance_m = 1e-3f;  // from it to the ends of edges on it
 
 struct Scene {
   // In scene.cpp, so that not every file compiles them.

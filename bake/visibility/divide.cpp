@@ -6,6 +6,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "bake/scene/box_tree.h"
 #include "formats/core/check.h"
 
 namespace oriel {
@@ -14,9 +15,9 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 
 struct Piece {
-  UVec3 vertex{0};       // into the scene's vertices, then those added
-  std::uint32_t of = 0;  // the triangle that it is a piece of
-  bool cut = false;      // its own pieces stand for it
+  UVec3 vertex{0};        // into the scene's vertices, then those added
+  std::uint32_t of = 0;   // the triangle that it is a piece of
+  std::uint32_t cut = 0;  // the first of its two halves, which stand for it; 0: it is whole
 };
 
 // Both ends of an edge by their positions, whatever vertices stand there and in whichever order.
@@ -47,7 +48,7 @@ class Divider {
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
       if (is_wanted(scene_.triangles[t])) work.push_back(t);
     if (work.empty()) return false;
-    begin([](const Surface&) { return true; });
+    begin([](std::uint32_t) { return true; });
     while (!work.empty()) {
       const std::uint32_t p = work.back();
       work.pop_back();
@@ -64,10 +65,15 @@ class Divider {
 
   bool cut() {
     if (scene_.cuts.empty()) return false;
-    begin([this](const Surface& surface) { return surface.mover < 0 && is_near_cut(surface); });
+    std::vector<bool> is_near(scene_.triangles.size());
+    std::vector<std::vector<std::uint32_t>> near = triangles_near_cuts(is_near);
+    begin([&](std::uint32_t t) { return is_near[t]; });
     const std::size_t before = pieces_.size();
-    for (const ChartCut& line : scene_.cuts)
-      for (std::uint32_t p = 0; p < pieces_.size(); ++p) cut_piece(p, line);
+    for (std::size_t c = 0; c < near.size(); ++c) {
+      std::size_t next = pieces_.size();
+      for (const std::uint32_t p : whole_pieces(std::move(near[c]), scene_.cuts[c])) cut_piece(p, scene_.cuts[c]);
+      for (; next < pieces_.size(); ++next) cut_piece(static_cast<std::uint32_t>(next), scene_.cuts[c]);
+    }
     if (pieces_.size() == before) return false;
     write();
     return true;
@@ -77,20 +83,54 @@ class Divider {
   template <class Takes>
   void begin(const Takes& takes) {
     ORIEL_CHECK_EQ(scene_.twin.size(), std::size_t{0});
-    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) pieces_.push_back({scene_.triangles[t], t, false});
+    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) pieces_.push_back({scene_.triangles[t], t, 0});
     for (std::uint32_t p = 0; p < pieces_.size(); ++p)
-      if (takes(scene_.surfaces[scene_.triangle_surface[pieces_[p].of]])) add_edges(p);
+      if (takes(p)) add_edges(p);
   }
 
-  bool is_near_cut(const Surface& surface) const {
-    const auto first = scene_.positions.begin() + surface.first_vertex, end = first + surface.vertex_count;
-    Vec3 lower(std::numeric_limits<float>::max()), upper(-lower);
-    for (auto p = first; p != end; ++p) lower = glm::min(lower, *p), upper = glm::max(upper, *p);
-    const Vec3 tolerance(static_cast<float>(kCutTolerance_m));
-    return std::ranges::any_of(scene_.cuts, [&](const ChartCut& cut) {
-      return glm::all(glm::lessThan(glm::min(cut.from, cut.to), upper + tolerance)) &&
-             glm::all(glm::greaterThan(glm::max(cut.from, cut.to), lower - tolerance));
-    });
+  // Whether the line passes their box, with room for its tolerance.
+  static bool passes(const ChartCut& line, const Corners& corners) {
+    TreeBox box;
+    for (const Vec3& corner : corners) box.add(DVec3(corner));
+    box.widen(2 * line.tolerance_m());
+    double first = 0, last = 1;
+    for (int k = 0; k < 3; ++k) {
+      const double from = line.from[k], step = line.to[k] - from;
+      const double a = (box.lower[k] - from) / step, b = (box.upper[k] - from) / step;
+      first = std::max(first, std::min(a, b)), last = std::min(last, std::max(a, b));
+    }
+    return first <= last;
+  }
+
+  // Those of what stands still, by cut.
+  std::vector<std::vector<std::uint32_t>> triangles_near_cuts(std::vector<bool>& is_near) const {
+    const BoxTree tree = tree_of(scene_.cuts);
+    std::vector<std::vector<std::uint32_t>> near(scene_.cuts.size());
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
+      if (scene_.surfaces[scene_.triangle_surface[t]].mover >= 0) continue;
+      const Corners c = corners(scene_.triangles[t]);
+      TreeBox box;
+      for (const Vec3& corner : c) box.add(DVec3(corner));
+      tree.near(box, found);
+      for (const std::uint32_t i : found)
+        if (passes(scene_.cuts[i], c)) near[i].push_back(t), is_near[t] = true;
+    }
+    return near;
+  }
+
+  // What is left of pieces where the line passes, ascending.
+  std::vector<std::uint32_t> whole_pieces(std::vector<std::uint32_t> work, const ChartCut& line) const {
+    std::vector<std::uint32_t> whole;
+    while (!work.empty()) {
+      const Piece& piece = pieces_[work.back()];
+      if (piece.cut == 0) whole.push_back(work.back());
+      work.pop_back();
+      for (const std::uint32_t half : {piece.cut, piece.cut + 1})
+        if (piece.cut != 0 && passes(line, corners(pieces_[half].vertex))) work.push_back(half);
+    }
+    std::ranges::sort(whole);
+    return whole;
   }
 
   // Its pieces come after it, and are cut in their turn.
@@ -99,17 +139,16 @@ class Divider {
     const UVec3 v = pieces_[p].vertex;
     const Corners c = corners(v);
     const Vec3 n = geometric_normals_[pieces_[p].of];
-    if (std::abs(glm::dot(n, line.from - c[0])) > kCutTolerance_m ||
-        std::abs(glm::dot(n, line.to - c[0])) > kCutTolerance_m)
-      return;
+    const double near = line.tolerance_m();
+    if (std::abs(glm::dot(n, line.from - c[0])) > near || std::abs(glm::dot(n, line.to - c[0])) > near) return;
     const float length = glm::distance(line.from, line.to);
     const Vec3 along = (line.to - line.from) / length, across = glm::cross(n, along);
     for (int k = 0; k < 3; ++k) {
       const Vec3 a = c[k] - line.from, b = c[(k + 1) % 3] - line.from;
       const float da = glm::dot(across, a), db = glm::dot(across, b);
-      if (std::min(std::abs(da), std::abs(db)) <= kCutTolerance_m || (da > 0) == (db > 0)) continue;
+      if (std::min(std::abs(da), std::abs(db)) <= near || (da > 0) == (db > 0)) continue;
       const float at = da / (da - db), place = glm::dot(along, a + at * (b - a));
-      if (place < -kCutTolerance_m || place > length + kCutTolerance_m) continue;
+      if (place < -near || place > length + near) continue;
       const auto found = pieces_at_.find(edge_key(v, k));
       if (found == pieces_at_.end()) continue;  // of what moves
       cut_edge(found->first, c[k] + at * (c[(k + 1) % 3] - c[k]));
@@ -184,9 +223,9 @@ class Divider {
       for (int k = 0; k < 3; ++k) {
         if (!(edge_key(v, k) == key)) continue;
         const std::uint32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3], m = vertex_on(a, b, place);
-        pieces_[p].cut = true;
+        pieces_[p].cut = static_cast<std::uint32_t>(pieces_.size());
         for (const UVec3& half : {UVec3(a, m, c), UVec3(m, b, c)}) {
-          pieces_.push_back({half, pieces_[p].of, false});
+          pieces_.push_back({half, pieces_[p].of, 0});
           add_edges(static_cast<std::uint32_t>(pieces_.size() - 1));
         }
         break;

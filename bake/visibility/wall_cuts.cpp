@@ -5,6 +5,9 @@
 #include <map>
 #include <optional>
 
+#include "bake/jobs/parallel.h"
+#include "bake/scene/box_tree.h"
+
 namespace oriel {
 namespace {
 
@@ -48,40 +51,56 @@ struct WallLine {
     length += std::abs(to - from);
   }
   bool runs_along(const WallLine& other, float distance) const {
+    const Vec2 middle = other.on + 0.5f * (other.first + other.last) * other.along;
+    const float beside = 0.5f * (other.last - other.first);
     return std::abs(glm::dot(left_of(along), other.along)) < kStraight / kLeastWall &&
-           std::abs(off(other.on + 0.5f * (other.first + other.last) * other.along)) < distance;
+           std::abs(off(middle)) < distance && place(middle) + beside > first && place(middle) - beside < last;
   }
 };
 
 class WallFinder {
  public:
-  WallFinder(const Accel& accel, float scale) : accel_(accel), scene_(accel.scene()), scale_(scale) {
-    for (const Surface& surface : scene_.surfaces)
-      for (std::uint32_t i = 0; i < surface.triangle_count && surface.mover < 0; i += kBlock)
-        blocks_.push_back(block(surface.first_triangle + i, std::min(kBlock, surface.triangle_count - i)));
-  }
+  WallFinder(const Accel& accel, float scale, Context& context)
+      : accel_(accel), scene_(accel.scene()), scale_(scale), context_(context), tree_(blocks()) {}
 
-  std::vector<ChartCut> run() const {
-    std::vector<ChartCut> cuts;
-    for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
+  Result<std::vector<ChartCut>> run() const {
+    std::vector<FlatPart> parts;
+    for (std::uint32_t s = 0; s < scene_.surfaces.size() && !context_.stopped(); ++s) {
       if (scene_.surfaces[s].mover >= 0 || scene_.materials[scene_.surfaces[s].material].unlit) continue;
-      for (const FlatPart& part : flat_parts(s)) add_cuts(part, cuts);
+      for (FlatPart& part : flat_parts(s)) parts.push_back(std::move(part));
     }
+    std::vector<std::vector<ChartCut>> of_part(parts.size());
+    // Ended early: what is there is kept.
+    (void)parallel_for(context_, "walls", parts.size(), [&](std::size_t i) { of_part[i] = cuts_of(parts[i]); });
+    if (context_.stop) return fail(ErrorCode::kStopped, "walls", "stopped");
+    if (context_.stopped())
+      context_.warning(
+          {"walls: the light of rooms may mix under some of them, which were left out for want of --time; "
+           "a longer one finds them",
+           WarningKind::kTimeOver});
+    std::vector<ChartCut> cuts;
+    for (const auto& own : of_part) cuts.insert(cuts.end(), own.begin(), own.end());
     return cuts;
   }
 
  private:
   // Triangles of a surface in a row.
   struct Block {
-    Vec3 lower, upper;
     std::uint32_t first, count;
   };
 
-  Block block(std::uint32_t first, std::uint32_t count) const {
-    Block block{Vec3(std::numeric_limits<float>::max()), Vec3(-std::numeric_limits<float>::max()), first, count};
-    for (std::uint32_t t = first; t < first + count; ++t)
-      for (const Vec3& p : corners(t)) block.lower = glm::min(block.lower, p), block.upper = glm::max(block.upper, p);
-    return block;
+  // Fills in blocks_.
+  std::vector<TreeBox> blocks() {
+    std::vector<TreeBox> bounds;
+    for (const Surface& surface : scene_.surfaces)
+      for (std::uint32_t i = 0; i < surface.triangle_count && surface.mover < 0; i += kBlock) {
+        const Block& block =
+            blocks_.emplace_back(surface.first_triangle + i, std::min(kBlock, surface.triangle_count - i));
+        TreeBox& box = bounds.emplace_back();
+        for (std::uint32_t t = block.first; t < block.first + block.count; ++t)
+          for (const Vec3& p : corners(t)) box.add(DVec3(p));
+      }
+    return bounds;
   }
 
   std::array<Vec3, 3> corners(std::uint32_t triangle) const {
@@ -120,14 +139,14 @@ class WallFinder {
   // What cuts the plane just above the part.
   std::vector<std::array<Vec2, 2>> feet(const FlatPart& part) const {
     const float lift = kLift * scale_;
-    Vec3 lower(std::numeric_limits<float>::max()), upper(-lower);
+    TreeBox box;
     for (const Vec2& p : {part.lower, Vec2(part.upper.x, part.lower.y), part.upper, Vec2(part.lower.x, part.upper.y)})
-      lower = glm::min(lower, part.at(p, lift)), upper = glm::max(upper, part.at(p, lift));
+      box.add(DVec3(part.at(p, lift)));
+    std::vector<std::uint32_t> near;
+    tree_.near(box, near);
     std::vector<std::array<Vec2, 2>> found;
-    for (const Block& block : blocks_) {
-      if (glm::any(glm::lessThan(block.upper, lower)) || glm::any(glm::greaterThan(block.lower, upper))) continue;
-      for (std::uint32_t i = 0; i < block.count; ++i) add_foot(part, corners(block.first + i), found);
-    }
+    for (const std::uint32_t b : near)
+      for (std::uint32_t i = 0; i < blocks_[b].count; ++i) add_foot(part, corners(blocks_[b].first + i), found);
     std::ranges::stable_sort(found, std::greater(), [](const auto& e) { return glm::distance(e[0], e[1]); });
     return found;
   }
@@ -148,7 +167,7 @@ class WallFinder {
     found.push_back(foot);
   }
 
-  // Feet in one line, those of a wall or more.
+  // Feet in one line without an opening as wide as the shortest wall: those of a wall or more.
   std::vector<WallLine> lines(const FlatPart& part) const {
     std::vector<WallLine> found;
     for (const auto& [a, b] : feet(part)) {
@@ -164,8 +183,18 @@ class WallFinder {
         found.back().add(0, glm::distance(a, b));
       }
     }
-    std::erase_if(found, [&](const WallLine& line) { return line.length < kLeastWall * scale_; });
-    return found;
+    std::vector<WallLine> walls;
+    for (WallLine& line : found) {
+      std::ranges::sort(line.pieces, {}, [](const Vec2& piece) { return std::pair(piece.x, piece.y); });
+      const std::size_t before = walls.size();
+      for (const Vec2& piece : line.pieces) {
+        if (walls.size() == before || piece.x > walls.back().last + kLeastWall * scale_)
+          walls.push_back({line.on, line.along, piece.x, piece.x, 0, {}});
+        walls.back().add(piece.x, piece.y);
+      }
+    }
+    std::erase_if(walls, [&](const WallLine& wall) { return wall.length < kLeastWall * scale_; });
+    return walls;
   }
 
   // Whether the flat part is there, seen from the lifted plane.
@@ -226,9 +255,12 @@ class WallFinder {
   }
 
   std::vector<WallLine> walls(const FlatPart& part) const {
+    const std::vector<WallLine> feet = lines(part);
+    std::vector<std::optional<WallLine>> middles(feet.size());
+    // Stopped: run() notices.
+    (void)parallel_for(context_, "", feet.size(), [&](std::size_t i) { middles[i] = wall(part, feet[i]); });
     std::vector<WallLine> found;
-    for (const WallLine& line : lines(part)) {
-      auto middle = wall(part, line);
+    for (auto& middle : middles) {
       if (!middle) continue;
       const auto other_face = std::ranges::find_if(
           found, [&](const WallLine& other) { return other.runs_along(*middle, kSameWall * scale_); });
@@ -246,7 +278,8 @@ class WallFinder {
   }
 
   // Cuts cells, convex polygons, each by those walls that run through it.
-  void add_cuts(const FlatPart& part, std::vector<ChartCut>& cuts) const {
+  std::vector<ChartCut> cuts_of(const FlatPart& part) const {
+    std::vector<ChartCut> cuts;
     using Cell = std::vector<Vec2>;
     std::vector<Cell> cells{
         {part.lower, Vec2(part.upper.x, part.lower.y), part.upper, Vec2(part.lower.x, part.upper.y)}};
@@ -274,18 +307,21 @@ class WallFinder {
         cells.push_back(std::move(right));
       }
     }
+    return cuts;
   }
 
   const Accel& accel_;
   const Scene& scene_;
   float scale_;
+  Context& context_;
   std::vector<Block> blocks_;  // of all that stands still
+  BoxTree tree_;               // of them
 };
 
 }  // namespace
 
-std::vector<ChartCut> find_wall_cuts(const Accel& accel, float scale) {
-  return WallFinder(accel, scale).run();
+Result<std::vector<ChartCut>> find_wall_cuts(const Accel& accel, float scale, Context& context) {
+  return WallFinder(accel, scale, context).run();
 }
 
 }  // namespace oriel

@@ -92,7 +92,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"CGAL/", {"bake/import"}},
     {"OpenMesh/", {"bake/atlas"}},
     {"Eigen/", {"bake/atlas", "bake/radiosity", "bake/transfer"}},
-    {"boost/", {"bake/radiosity", "bake/radiosity/texels"}},
+    {"boost/", {"bake/scene"}},
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/window"}},

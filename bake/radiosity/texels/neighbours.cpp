@@ -1,10 +1,9 @@
 #include "bake/radiosity/texels/neighbours.h"
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
 
 #include "bake/jobs/parallel.h"
+#include "bake/scene/box_tree.h"
 
 namespace oriel {
 namespace {
@@ -13,9 +12,6 @@ constexpr float kSameNormal = 0.9f;  // cosine
 constexpr float kSamePlane = 0.25f;  // of the distance
 constexpr float kReach = 1.6f;       // texels: a diagonal and a little
 constexpr float kLift = 0.1f;        // texels above the surface at which neighbours must see each other
-
-using RimBox = boost::geometry::model::box<boost::geometry::model::point<float, 3, boost::geometry::cs::cartesian>>;
-using Rims = boost::geometry::index::rtree<std::pair<RimBox, std::uint32_t>, boost::geometry::index::quadratic<16>>;
 
 struct Candidate {
   std::uint32_t a, b;  // a < b
@@ -86,9 +82,10 @@ class NeighbourFinder {
   }
 
   void add_from_world(std::uint32_t a, std::vector<std::pair<float, std::uint32_t>>& found) const {
-    const auto query = boost::geometry::index::intersects(reach_of(a));
-    for (auto it = rims_.qbegin(query); it != rims_.qend(); ++it)
-      if (const std::uint32_t b = it->second; b != a && texels_.chart[b] != texels_.chart[a] && continues(a, b))
+    std::vector<std::uint32_t> near;
+    rims_->near(reach_of(a), near);
+    for (const std::uint32_t i : near)
+      if (const std::uint32_t b = rim_texels_[i]; b != a && texels_.chart[b] != texels_.chart[a] && continues(a, b))
         found.emplace_back(distance2(a, b), b);
   }
 
@@ -103,23 +100,24 @@ class NeighbourFinder {
     return false;
   }
 
-  RimBox reach_of(std::uint32_t i) const {
-    const Vec3 reach(kReach * size_[i]), low = position_[i] - reach, high = position_[i] + reach;
-    return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
+  TreeBox reach_of(std::uint32_t i) const {
+    const Vec3 reach(kReach * size_[i]);
+    return {DVec3(position_[i] - reach), DVec3(position_[i] + reach)};
   }
 
   void fill_rims() {
-    std::vector<std::pair<RimBox, std::uint32_t>> entries;
+    std::vector<TreeBox> boxes;
     for (std::uint32_t i = 0; i < texels_.count(); ++i)
-      if (texels_.visible[i] > 0 && at_rim(i)) entries.emplace_back(reach_of(i), i);
-    rims_ = Rims(entries);
+      if (texels_.visible[i] > 0 && at_rim(i)) rim_texels_.push_back(i), boxes.push_back(reach_of(i));
+    rims_.emplace(boxes);
   }
 
   const Transport& t_;
   const Texels& texels_;
   std::vector<Vec3> position_;
-  std::vector<float> size_;  // side of a texel of its chart, metres
-  Rims rims_;                // boxes within reach of the texels at chart rims: their sizes span orders of magnitude
+  std::vector<float> size_;                // side of a texel of its chart, metres
+  std::vector<std::uint32_t> rim_texels_;  // those at the rims of charts
+  std::optional<BoxTree> rims_;            // what is within their reach
 };
 
 void link(TexelGraph& graph, std::uint32_t a, std::uint32_t b) {
