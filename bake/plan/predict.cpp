@@ -18,8 +18,10 @@ constexpr double kSlowPaths = 1.5;          // a ray of verification takes longe
 constexpr double kNominalError = 0.02;      // of pilots where time alone limits the work
 constexpr double kLeastAskedError = 1e-3;   // what a bake limited by time alone asks for
 
-constexpr double kMostPilot_s = 20;   // that a pilot takes: a plan is read before a bake, not instead of it
-constexpr double kMostOfTime = 0.25;  // of --time likewise
+constexpr double kMostPlan_s = 25;          // that a plan takes, but for what ends late: it is read before a bake
+constexpr double kMostOfTime = 0.25;        // of --time likewise
+constexpr double kLeastPilot = 0.4;         // of these, where preparation took more than the rest
+constexpr double kUntil[2] = {0.25, 0.75};  // of the pilot's time: a coarser bake has a quarter of the texels
 
 // Of a map's bytes, what a pack stores: 0.27 of the gallery's radiance maps, 0.46 of the studio's surround maps.
 constexpr double kStoredShare = 0.35;
@@ -79,7 +81,9 @@ double texels_of(std::span<const TexelMapPage> pages) {
   return texels;
 }
 
-Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context& context) {
+// left: seconds until it ends.
+Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, const std::function<double()>& left,
+                                  Context& context) {
   LightmapPilot pilot;
   AtlasOptions coarse = in.options.atlas;
   coarse.source = AtlasOptions::Source::kAuto;
@@ -89,8 +93,7 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   ORIEL_TRY(const auto texel_map, build_texel_map(pilot.atlas, context));
   const ElapsedTime clock;
   RadiosityOptions options = pilot_options(in);
-  const double most_s = in.options.time_s > 0 ? std::min(kMostPilot_s, kMostOfTime * in.options.time_s) : kMostPilot_s;
-  options.left = options.left_of_all = [&clock, most_s] { return most_s - clock.spent(); };
+  options.left = options.left_of_all = left;
   options.enough = [&options] { return options.late(); };
   const Transport transport{*in.prepared.accel, in.lights, path_options(in.options)};
   const StageInputs inputs(context, SurfacesOf{in.prepared.scene()}, LightsOf{in.prepared.scene()},
@@ -141,14 +144,15 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
   return c;
 }
 
-// Radiance and surround maps: planned as the bake plans them, a few of their pixels captured as the bake does to tell
-// its own time.
-Result<Component> predict_reflections(const CensusInput& in, Context& context) {
+// Radiance and surround maps: planned as the bake plans them, with fewer samples where all take longer than `seconds`;
+// a few of their pixels captured as the bake does to tell its own time.
+Result<Component> predict_reflections(const CensusInput& in, double seconds, Context& context) {
   BakeOptions options = in.options;
   options.planned.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
   Pack dark;
   const BakeTask task{options, in.prepared, in.lights, context, {}};
-  ORIEL_TRY(PlannedReflections planned, plan_reflections(task, in.reflections, HUGE_VAL));
+  ORIEL_TRY(PlannedReflections planned, plan_reflections(task, in.reflections, 0.5 * seconds));
+  planned.seconds *= planned.divisor;
   if (planned.has_images()) ORIEL_TRY_VOID(time_reflections(task, dark, planned));
   Component c{.name = "radiance", .seconds = planned.seconds + planned.capture_s};
   c.raw_bytes = static_cast<std::uint64_t>(kMapBytesPerPixel * (planned.planar_pixels() + planned.surround_pixels()));
@@ -214,18 +218,23 @@ TexelWork fit_work(const double (&n)[2], const double (&w)[2]) {
 Result<Prediction> predict(const CensusInput& in, const Census& census, double spent, Context& context) {
   Prediction p;
   const ElapsedTime clock;
+  const double plan_s = in.options.time_s > 0 ? std::min(kMostPlan_s, kMostOfTime * in.options.time_s) : kMostPlan_s;
+  const double most = std::max(plan_s - spent, kLeastPilot * plan_s);
   p.components.push_back({.name = "preparation", .seconds = spent});
   const bool light = std::any_of(census.stages.begin(), census.stages.end(),
                                  [](const StageCensus& s) { return s.name == "radiosity" && s.runs; });
   if (light) {
     LightmapPilot pilots[2];
     const double coarser = std::clamp(std::sqrt(texels_of(in.prepared.texel_map) / kLeastPilotTexels), 1.0, kCoarser);
-    ORIEL_TRY(pilots[0], bake_coarse(in, 2 * coarser, context));
-    ORIEL_TRY(pilots[1], bake_coarse(in, coarser, context));
+    for (int i = 0; i < 2; ++i) {
+      const auto left = [&clock, until = kUntil[i] * most] { return until - clock.spent(); };
+      ORIEL_TRY(pilots[i], bake_coarse(in, (2 - i) * coarser, left, context));
+    }
     p.components.front().bytes = pilots[1].scene_bytes;
     p.components.push_back(extrapolate(in, pilots));
     if (in.options.with_radiance && !in.reflections.empty()) {
-      ORIEL_TRY(Component radiance, predict_reflections(in, context));
+      const double left = std::max(most - clock.spent(), (1 - kUntil[1]) * most);
+      ORIEL_TRY(Component radiance, predict_reflections(in, left, context));
       p.components.push_back(std::move(radiance));
     }
   }

@@ -41,7 +41,8 @@ TexelWork fit_work(const double (&texels)[2], const double (&work)[2]);
 // Bakes the lightmap with texels 8 and 4 times as large (1/64 and 1/16 of them; finer ones for small scenes) and
 // extrapolates rays, bytes and squared errors by TexelWork (rays by texels where their limit ends the pilot); seconds
 // are rays over the rate measured in the finer one. Reflections are planned and timed as the bake itself does. Movers
-// are not predicted. `spent`: seconds that preparation took. Error kStopped and those of the stages.
+// are not predicted. `spent`: seconds that preparation took; with them all ends after some 25 s. Error kStopped and
+// those of the stages.
 Result<Prediction> predict(const CensusInput& in, const Census& census, double spent, Context& context);
 
 }  // namespace oriel

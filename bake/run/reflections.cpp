@@ -273,12 +273,15 @@ Result<PlannedReflections> plan_reflections(const BakeTask& bake, FoundReflectio
     if (!plan && !context.stop && whole.spent() > most) {
       planned.all.found.reflectors = before;
       planned.plans.clear();
-      if (divisor == kFewest)
+      if (divisor == kFewest) {
         leave_out_maps({"planning them takes too long for --time", WarningKind::kTimeOver}, planned);
+        planned.divisor = divisor, planned.seconds = whole.spent();
+      }
       break;
     }
     if (!plan) return tl::unexpected(plan.error());
     planned.plan = std::move(*plan);
+    planned.divisor = divisor;
     seconds -= clock.spent();
     planned.seconds = clock.spent() + (reused_s(context) - reused_before) / thread_count(context);
     if (divisor == 1 || kFewer * planned.seconds > seconds) break;

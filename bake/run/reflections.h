@@ -40,6 +40,7 @@ struct PlannedReflections {
   FoundReflections all;
   ViewPlan plan;                          // of the planar reflectors; without pixels
   double seconds = 0;                     // that planning takes where nothing of it is known already
+  std::uint32_t divisor = 1;              // of its samples
   double capture_s = 0;                   // that the rest is likely to take; 0 unless asked for
   double surround_s = 0;                  // of these, surround maps
   std::vector<KnownPlan> plans;           // to be known next time
