@@ -239,6 +239,8 @@ class SeamFinder {
 
 Result<Seams> find_seams(const Transport& transport, const Atlas& atlas, std::span<const LightmapPage> pages,
                          const Stage& stage) {
+  // Edges take a second for a million triangles: not where it is late already.
+  if (stage.context.stopped()) return fail(ErrorCode::kStopped, "seams", "stopped");
   const SeamFinder finder(transport, atlas, pages, stage.context.seed);
   const std::size_t count = finder.edge_count(), runs = (count + kEdgesATask - 1) / kEdgesATask;
   std::vector<Seams> found(runs);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kEyesForSides = 256;
 constexpr double kTriangles_per_s = 1e5;     // of --time: reading, tracing, laying out and writing take 3 to 6 µs each
-constexpr double kMostForWalls = 0.05;       // of --time: 1 s of 60 s for 427 thousand triangles with 2200 walls
+constexpr double kMostForWalls = 0.1;        // of --time: 400 thousand facets of a terrain take 5 s of a thread
 constexpr double kMostForSides = 0.15;       // of --time
 constexpr double kMostForFirstLight = 0.18;  // of what of it is left when the lightmap is laid out
 constexpr double kFirstRays = 800;    // of a texel, for a first estimate of its light: points, direct light, gather
