@@ -52,4 +52,23 @@ std::vector<ImageAllowance> afford_images(std::span<const PricedImage> images, f
   return out;
 }
 
+float reflectance_of(const Pack& pack, std::uint32_t material) {
+  const std::int32_t row = pack.materials[material].fresnel_map;
+  if (row < 0) return 0;
+  const auto& table = pack.fresnel_maps[static_cast<std::size_t>(row)].table;
+  return table.empty() ? 0.0f : max_component(table[table.size() / 2]);
+}
+
+float image_gain(const GpuScene& scene, const View& view, const GpuReflector& reflector, const NdcRect& screen) {
+  const Material& material = scene.pack().materials[reflector.material];
+  const float usual = reflectance_of(scene.pack(), reflector.material);
+  if (!(usual > 0)) return 0;
+  const Vec4 seen = glm::inverse(view.clip_from_pack) * Vec4(0.5f * (screen.lower + screen.upper), 0, 1);
+  const Vec3 along = normalize_or(Vec3(seen) * view.eye.w - Vec3(view.eye) * seen.w, Vec3(0));
+  const float cosine = std::abs(glm::dot(along, Vec3(reflector.pack_from_reflector[2])));
+  const auto& table = scene.pack().fresnel_maps[static_cast<std::size_t>(material.fresnel_map)].table;
+  const float at = std::sqrt(std::min(cosine, 1.0f)) * static_cast<float>(table.size() - 1);
+  return max_component(table[static_cast<std::size_t>(at)]) / usual * (1 - material.roughness);
+}
+
 }  // namespace oriel

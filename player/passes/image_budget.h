@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "player/navigation/culling.h"
+#include "player/scene/gpu_scene.h"
+
 namespace oriel {
 
 // Milliseconds that an image of a reflector takes.
@@ -34,5 +37,12 @@ struct ImageAllowance {
 // Needed images, then others in the order of worth over price, as long as the budget covers them. What is left goes to
 // the images in them, by worth. An infinite budget draws all.
 std::vector<ImageAllowance> afford_images(std::span<const PricedImage> images, float budget_ms);
+
+// R of a material at 60 degrees, largest channel; 0 where nothing is known.
+float reflectance_of(const Pack& pack, std::uint32_t material);
+
+// What a reflector shows for each pixel of that rectangle beside its R at 60 degrees: more where it is looked along, as
+// polished wood is a mirror then; less where its lobe is wide.
+float image_gain(const GpuScene& scene, const View& view, const GpuReflector& reflector, const NdcRect& screen);
 
 }  // namespace oriel

@@ -38,14 +38,6 @@ int most_orders(const FrameOptions& options) {
   return options.coarse ? 1 : options.orders.value_or(kMostOrders);
 }
 
-// At 60 degrees, largest channel; 0 where nothing is known.
-float reflectance_of(const Pack& pack, std::uint32_t material) {
-  const std::int32_t row = pack.materials[material].fresnel_map;
-  if (row < 0) return 0;
-  const auto& table = pack.fresnel_maps[static_cast<std::size_t>(row)].table;
-  return table.empty() ? 0.0f : max_component(table[table.size() / 2]);
-}
-
 bool shows_reflectors(const FrameOptions& options) {
   return options.show != Show::kD && options.reflections != Reflections::kOff;
 }
@@ -160,7 +152,6 @@ void ReflectionRenderer::afford(const FrameContext& context, const ReflectionTar
   for (const MarkedReflector& m : found) {
     const ImageRect rect = rect_of(context, m);
     const float share = target.share * share_of_picture(m.screen);
-    const Material& material = scene.pack().materials[m.reflector->material];
     std::uint64_t triangles = 0, parts = 0;
     if (!shows_maps(*m.reflector, options)) {
       for (const DrawBatch& batch :
@@ -170,7 +161,7 @@ void ReflectionRenderer::afford(const FrameContext& context, const ReflectionTar
       }
     }
     const bool mirror = reflectance_of(scene.pack(), m.reflector->material) >= kMirroring;
-    images.push_back({m.worth * share_of_picture(m.screen) * (1 - material.roughness),
+    images.push_back({m.worth * share_of_picture(m.screen) * image_gain(scene, view, *m.reflector, m.screen),
                       prices_.of(parts, triangles, std::uint64_t(rect.width) * std::uint64_t(rect.height)),
                       target.frame != nullptr && mirror && share >= kLargeShare});
   }
