@@ -165,8 +165,9 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
   if (extension) ORIEL_TRY_VOID(extension->begin(context, movers));
   const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored, glass_pass_, extension};
   ReflectionTarget target{&*frame_};
-  target.budget_ms = options.image_budget_ms != kBudgetOfDevice ? options.image_budget_ms
-                                                                : image_budget_ms(device_.renderer, options.coarse);
+  target.budget_ms = frame_budget_ms(
+      options.image_budget_ms == kBudgetOfDevice ? device_budget_ms(device_.renderer) : options.image_budget_ms,
+      view.width, view.height, options.coarse);
   ReflectionMarks marks;
   ORIEL_TRY(const std::vector<MarkedReflector> marked,
             clock_.time(Pass::kMask, [&] { return reflections_.draw_masks(context, target, marks); }));

@@ -91,6 +91,7 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
   const auto& [scene, view, options, stats] = context;
   if (!shows_reflectors(options)) return out;
   if (target.frame != nullptr) image_count_ = 0;
+  if (target.frame == nullptr && target.budget_ms < prices_.image_ms) return out;
   for (const GpuReflector& reflector : scene.reflectors()) {
     const bool maps = shows_maps(reflector, options);
     if (reflector.index_count == 0 || (maps && options.maps_per_element <= 0)) continue;

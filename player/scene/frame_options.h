@@ -57,7 +57,7 @@ struct FrameOptions {
   // Reflectors on the way of a reflection; none: two, and on while all of them are mirrors that keep half of the light.
   std::optional<int> orders = {};
   // Foretold time of planar reflectors' images: those that show most for their price are drawn (passes/image_budget.h).
-  // kBudgetOfDevice: what suits the device, less in a coarse frame.
+  // At 1280 x 720; kBudgetOfDevice: what suits the device.
   float image_budget_ms = std::numeric_limits<float>::infinity();
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Blur blur = Blur::kDistance;

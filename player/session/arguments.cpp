@@ -281,6 +281,9 @@ Status settle(const Given& given, PlayArguments& out) {
   out.given = given.typed();
   out.toned = given.has("--tonemap"), out.sampled = given.has("--samples"), out.divided = given.has("--split");
   out.frame.halves = out.makes_pictures();
+  // Sides of a panorama and frames of a film show the same reflectors.
+  if (out.offscreen && (out.panorama || !out.path.empty()) && !given.has("--frame-budget"))
+    out.frame.image_budget_ms = std::numeric_limits<float>::infinity();
   if (const std::string complaint = contradiction(out); !complaint.empty())
     return fail(ErrorCode::kUsage, "", "{}", complaint);
   return {};

@@ -17,7 +17,7 @@ OptionValue budget(float& ms) {
     return {};
   };
   value.get = [&ms] { return ms == kBudgetOfDevice ? "" : std::isinf(ms) ? "none" : fmt::format("{}", ms); };
-  value.json = [&ms] { return ms == kBudgetOfDevice || std::isinf(ms) ? Json() : Json(ms); };
+  value.json = [&ms] { return ms == kBudgetOfDevice ? Json() : std::isinf(ms) ? Json("none") : Json(ms); };
   return value;
 }
 
@@ -34,10 +34,10 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
        "and on while all on the way are mirrors that leave half of the light",
        number(out.frame.orders, 1, 16), Use::kRare, "orders"},
       {"--frame-budget", group,
-       "Milliseconds that the images of planar reflectors may take: those that show most for their price are drawn, "
-       "the "
-       "others show their mean light; none draws all. Without it 150 on a processor, 8 on a graphics card, a quarter "
-       "while something moves",
+       "Milliseconds that the images of planar reflectors may take at 1280x720: those that show most for their price "
+       "are "
+       "drawn, the others show their mean light; none draws all, as in films and panoramas. Without it 200 on a "
+       "processor, 8 on a graphics card; an eighth while something moves",
        budget(out.frame.image_budget_ms), Use::kRare, "frame_budget"},
       {"--maps", group,
        "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 shows none",

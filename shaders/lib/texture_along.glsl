@@ -7,9 +7,9 @@ vec4 texture_along(sampler2D image, vec2 uv) {
   float x = length(dx * size), y = length(dy * size);
   vec2 longer = x > y ? dx : dy;
   float most = max(x, y), places = clamp(floor(most / max(min(x, y), 1e-6) + 0.5), 1.0, min(kMostPlaces, max(most, 1.0)));
+  places = floor(places);
   float level = log2(max(most / places, 1e-6));
   if (places < 1.5) return textureLod(image, uv, level);
-  places = floor(places);
   vec4 sum = vec4(0.0);
   for (float i = 0.5; i < places; ++i) sum += textureLod(image, uv + (i / places - 0.5) * longer, level);
   return sum / places;

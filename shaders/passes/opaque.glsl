@@ -1,6 +1,4 @@
 // The light of an opaque surface. To be included after irradiance_here(normal), lux.
-#include "lib/texture_along.glsl"
-
 uniform sampler2D u_base_texture;
 uniform vec4 u_base_color;
 #ifdef PLAIN
@@ -30,7 +28,8 @@ float alpha_of_light(float kind) { return u_alpha_kind == 0 ? kind : inverse_dis
 void main() {
   vec3 normal = tilted_by_map();
   vec4 base = u_base_color * v_color * texture_along(u_base_texture, v_uv);
-  if (u_alpha_cutoff >= 0.0 && base.a < u_alpha_cutoff) discard;
+  // As the depth pass cuts.
+  if (u_alpha_cutoff >= 0.0 && u_base_color.a * v_color.a * texture(u_base_texture, v_uv).a < u_alpha_cutoff) discard;
   if (u_unlit) {
     o_light = vec4(u_weights.z * u_emission * base.rgb, alpha_of_light(u_weights.z > 0.0 ? 2.0 : 1.0));
     return;
@@ -42,7 +41,7 @@ void main() {
 #ifdef PLAIN
   light += u_weights.z * u_emission;
 #else
-  light += u_weights.z * u_emission * texture(u_emission_texture, v_uv).rgb;
+  light += u_weights.z * u_emission * texture_along(u_emission_texture, v_uv).rgb;
 #endif
   o_light = vec4(light, alpha_of_light(1.0));
 }

@@ -2,6 +2,7 @@
 #include "lib/normal_map.glsl"
 #include "lib/reflectance.glsl"
 #include "lib/shading.glsl"
+#include "lib/texture_along.glsl"
 
 uniform vec4 u_eye;
 uniform sampler2D u_normal_texture;
@@ -36,7 +37,7 @@ vec3 tilted_by_map() {
   vec3 n = front_normal();
   vec4 tangent = tangent_of_steps(n, dFdx(v_position), dFdy(v_position), dFdx(v_normal_uv), dFdy(v_normal_uv));
   if (abs(v_tangent.w) >= 0.5) tangent = vec4(v_tangent.xyz, sign(v_tangent.w));
-  return tilted_normal(n, tangent, texture(u_normal_texture, v_normal_uv).rgb, u_normal_scale);
+  return tilted_normal(n, tangent, texture_along(u_normal_texture, v_normal_uv).rgb, u_normal_scale);
 }
 
 vec3 reflectance_of(vec3 tilted) {

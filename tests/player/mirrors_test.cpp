@@ -108,32 +108,47 @@ TEST_F(Mirrors, TakeTheirNumberToTheDepthOfImages) {
   }
 }
 
-// Three glossy walls of which a budget draws one, two or all: those that cover most of the picture. The others show
-// their mean light, which is none. Whole mirrors are drawn whatever they cost, but nothing in them.
+// Three glossy, lit walls of one material. What a budget does not cover shows its mean light, as without reflections;
+// what it covers is as without a budget. Whole mirrors are drawn whatever they cost, but nothing in them.
 TEST_F(Mirrors, ThatABudgetDoesNotCoverShowTheirMeanLight) {
   Pack pack = empty_pack();
   add_bare_mirror(pack, {-1, -1, -2}, {2, 0, 0}, {0, 2, 0});
   add_bare_mirror(pack, {-1, -1, 0}, {0, 0, -2}, {0, 2, 0});
   add_bare_mirror(pack, {1, -1, -2}, {0, 0, 2}, {0, 2, 0});
+  pack.lightmaps = {flat_page({40, 50, 60})};
+  for (MeshPart& part : pack.mesh.parts) part.lightmap_page = 0;
   pack.fresnel_maps[0] = flat_reflectance(Vec3(0.3f));
   pack.materials[0].roughness = 0;
   const Camera camera = look_at({0.05f, 0.02f, 0.6f}, {0, 0, -2}, 1.6f);
+  FrameOptions options;
   const auto drawn = [&](float budget_ms) {
-    FrameOptions options;
     options.image_budget_ms = budget_ms;
-    return draw(pack, camera, 160, 120, options).stats.reflectors;
+    return draw(pack, camera, 160, 120, options);
   };
-  const std::uint32_t all = drawn(std::numeric_limits<float>::infinity());
-  EXPECT_GT(all, 3u);
-  EXPECT_EQ(drawn(1e6f), all);
-  EXPECT_EQ(drawn(0), 0u);
-  for (std::uint32_t more = 0, at = 0; at < 40; ++at) {
-    const std::uint32_t now = drawn(0.5f * static_cast<float>(at));
-    EXPECT_GE(now, more) << at;
-    more = now;
+  const float infinity = std::numeric_limits<float>::infinity();
+  const Picture all = drawn(infinity);
+  EXPECT_EQ(drawn(1e6f).rgb, all.rgb);
+  options.reflections = Reflections::kOff;
+  const Picture none = drawn(infinity);
+  options.reflections = Reflections::kChosen;
+  EXPECT_EQ(drawn(0).rgb, none.rgb);
+  options.orders = 1;
+  const Picture direct = drawn(infinity);
+  ASSERT_EQ(direct.stats.reflectors, 3u);
+  Picture some;
+  for (float budget = 0; some.stats.reflectors == 0 && budget < 100; budget += 0.25f) some = drawn(budget);
+  ASSERT_EQ(some.stats.reflectors, 1u);
+  int mean = 0, image = 0;
+  for (const int x : {10, 80, 150}) {
+    ASSERT_GT(glm::length(direct.at(x, 60) - none.at(x, 60)), 0.1f) << x;
+    mean += some.at(x, 60) == none.at(x, 60);
+    image += some.at(x, 60) == direct.at(x, 60);
   }
+  EXPECT_EQ(mean, 2);
+  EXPECT_EQ(image, 1);
   pack.fresnel_maps[0] = flat_reflectance(Vec3(0.9f));
-  EXPECT_EQ(drawn(0), 3u);
+  options.orders = {};
+  EXPECT_EQ(drawn(0).stats.reflectors, 3u);
 }
 
 // Unlit surfaces are as bright as the pack says that their white is.

@@ -115,6 +115,36 @@ TEST_F(Shading, SlantedSurfacesKeepTheirPattern) {
   EXPECT_GT(most.g, 0.9f);
 }
 
+// Through a slanted grid of noise, what is behind shows in each hole: depth and light are cut alike.
+TEST_F(Shading, SlantedCutOutsHaveNoHolesInWhatIsBehind) {
+  Pack pack;
+  pack.sky = {0, 0, 900};
+  pack.materials.resize(2);
+  pack.materials[0].base_color_texture = 0;
+  pack.materials[0].alpha_mode = AlphaMode::kMask;
+  pack.materials[0].alpha_cutoff = 0.5f;
+  pack.materials[1].emission = {1, 0, 0};
+  constexpr std::uint32_t kTexels = 64;
+  Texture noise{"t", kTexels, kTexels, Wrap::kRepeat, Wrap::kRepeat, false, {}};
+  for (std::uint32_t i = 0; i < kTexels * kTexels; ++i) {
+    const auto alpha = static_cast<std::uint8_t>(i * 2654435761u >> 24);
+    noise.texels.insert(noise.texels.end(), {255, 255, 255, alpha});
+  }
+  pack.textures.push_back(std::move(noise));
+  add_quad(pack, {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, 0, 0);
+  add_quad(pack, {6, 50, -50}, {0, -100, 0}, {0, 0, 100}, 1, -1);
+  pack.lightmaps = {flat_page(Vec3(kPi))};
+  const Picture p = draw(pack, look_at({-4, 0, 0.4f}, {0, 0, 0}, 0.9f), 96, 96);
+  int sky = 0, grid = 0;
+  for (int i = 0; i < 96 * 96; ++i) {
+    const Vec3 light = p.at(i % 96, i / 96);
+    sky += light.b > 2;
+    grid += light.g > 0.5f;
+  }
+  EXPECT_EQ(sky, 0);
+  EXPECT_GT(grid, 500);
+}
+
 // A screen of four colours: each pixel has its texel's share of the mean, in the open and through glass, dimmed or not.
 TEST_F(Shading, ScreensShowTheirPicture) {
   for (const float transmission : {0.0f, 0.5f}) {
