@@ -1,5 +1,4 @@
 // oriel-scenes: writes the sample scenes as .glb files, and CIE standard skies as .exr images.
-#include <cstdio>
 #include <filesystem>
 
 #include "formats/cli/command.h"
@@ -124,7 +123,9 @@ Status settle(const Given& given, const Arguments& arguments, const std::vector<
   return {};
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+
+int main(int argc, char** argv) {
   Arguments arguments;
   const std::vector<Option> own = own_options(arguments);
   CommandLine line{ORIEL_VERSION,
@@ -136,21 +137,5 @@ int run(int argc, char** argv) {
                     .run = [&] { return run(arguments); },
                     .commands = {sky_command(arguments)}}};
   append(line.command.options, own);
-  const auto parsed = parse(line, argc, argv);
-  if (const int* code = std::get_if<int>(&parsed)) return *code;
-  const Status done = std::get<const ToolCommand*>(parsed)->run();
-  if (done) return 0;
-  fmt::print(stderr, "oriel-scenes: error: {}\n", done.error().text());
-  return static_cast<int>(done.error().code);
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "oriel-scenes: error: {}\n", error.what());
-    return static_cast<int>(ErrorCode::kRuntime);
-  }
+  return run_program(line, argc, argv);
 }

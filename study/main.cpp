@@ -1,7 +1,4 @@
 // oriel-study: draws and measures a scene as five published systems did. docs/study/ has a page for each.
-#include <cstdio>
-#include <exception>
-
 #include "study/rooms.h"
 
 namespace oriel::study {
@@ -17,12 +14,12 @@ Exit codes:
 
 docs/study/ has a page for each method: what it is, what the paper says of it and what is measured here.)";
 
-int fail_with(const Error& error) {
-  std::fprintf(stderr, "oriel-study: error: %s\n", error.text().c_str());
-  return static_cast<int>(error.code);
-}
+}  // namespace
+}  // namespace oriel::study
 
-int run(int argc, char** argv) {
+int main(int argc, char** argv) {
+  using namespace oriel;
+  using namespace oriel::study;
   gpu::add_shader_sources(shader_sources());
   ShownArguments arguments;
   Herf1997Settings herf1997;
@@ -34,19 +31,5 @@ int run(int argc, char** argv) {
        .options = {},
        .commands = {barczak2006_command(arguments), bastos1999_command(arguments), diefenbach1997_command(arguments),
                     herf1997_command(arguments, herf1997), udeshi1999_command()}}};
-  const auto parsed = parse(line, argc, argv);
-  if (const int* code = std::get_if<int>(&parsed)) return *code;
-  const Status done = std::get<const ToolCommand*>(parsed)->run();
-  return done ? 0 : fail_with(done.error());
-}
-
-}  // namespace
-}  // namespace oriel::study
-
-int main(int argc, char** argv) {
-  try {
-    return oriel::study::run(argc, argv);
-  } catch (const std::exception& e) {
-    return oriel::study::fail_with({oriel::ErrorCode::kRuntime, e.what(), ""});
-  }
+  return run_program(line, argc, argv);
 }

@@ -135,11 +135,13 @@ What each format carries, how materials and lamps become glTF's, and the way fro
 Units: of FBX, Collada and IFC as the file says; OBJ, 3DS, PLY and STL have none: oriel-bake guesses, or --unit there.
 Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 the file is at fault, 4 out of time or memory.)";
 
-int run(int argc, char** argv) {
+}  // namespace
+
+int main(int argc, char** argv) {
   constexpr const char *kFiles = "Files", *kReading = "Reading", *kLimits = "Limits";
   Arguments arguments;
   ImportProcess& process = arguments.process;
-  const CommandLine line{
+  CommandLine program{
       ORIEL_VERSION,
       {.name = "oriel-import",
        .help = "Turns a scene of another program (.fbx .obj .dae .3ds .ply .stl .ifc) into a binary glTF file.",
@@ -159,32 +161,16 @@ int run(int argc, char** argv) {
             quantity(
                 process.memory_bytes, "SIZE", parse_bytes, +[](std::uint64_t b) { return fmt::format("{}B", b); }),
             Use::kEveryday}}}};
-  CommandLine program = line;
-  program.command.run = [&] { return run(arguments); };
-  const auto parsed = parse(program, argc, argv);
-  if (const int* code = std::get_if<int>(&parsed)) return *code;
-  Status done;
-  try {
-    done = std::get<const ToolCommand*>(parsed)->run();
-  } catch (const std::bad_alloc&) {
-    done = fail(
-        ErrorCode::kRuntime, arguments.input.filename().string(),
-        "reading takes more than {:.3g} GiB: expected a smaller file, or oriel-import {} -o scene.glb --memory 32GiB "
-        "and its scene.glb",
-        static_cast<double>(process.memory_bytes) / 0x1p30, arguments.input.filename().string());
-  }
-  if (done) return 0;
-  fmt::print(stderr, "oriel-import: error: {}\n", done.error().text());
-  return static_cast<int>(done.error().code);
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "oriel-import: error: {}\n", error.what());
-    return static_cast<int>(ErrorCode::kRuntime);
-  }
+  program.command.run = [&]() -> Status {
+    try {
+      return run(arguments);
+    } catch (const std::bad_alloc&) {
+      return fail(
+          ErrorCode::kRuntime, arguments.input.filename().string(),
+          "reading takes more than {:.3g} GiB: expected a smaller file, or oriel-import {} -o scene.glb --memory 32GiB "
+          "and its scene.glb",
+          static_cast<double>(process.memory_bytes) / 0x1p30, arguments.input.filename().string());
+    }
+  };
+  return run_program(program, argc, argv);
 }

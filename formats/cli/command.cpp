@@ -307,6 +307,20 @@ std::variant<const ToolCommand*, int> parse(const CommandLine& program, int argc
   return static_cast<int>(done.error().code);
 }
 
+int run_program(const CommandLine& program, int argc, const char* const* argv) {
+  Status done;
+  try {
+    const auto parsed = parse(program, argc, argv);
+    if (const int* code = std::get_if<int>(&parsed)) return *code;
+    done = std::get<const ToolCommand*>(parsed)->run();
+  } catch (const std::exception& error) {
+    done = fail(ErrorCode::kRuntime, "", "{}", error.what());
+  }
+  if (done) return 0;
+  std::fprintf(stderr, "%s: error: %s\n", program.command.name.c_str(), done.error().text().c_str());
+  return static_cast<int>(done.error().code);
+}
+
 std::optional<int> parse_options(int argc, const char* const* argv, const char* help, std::vector<Option> options) {
   for (Option& option : options)
     if (option.use == Use::kRare) option.use = Use::kEveryday;

@@ -58,6 +58,9 @@ struct CommandLine {
 // and the program --version and --completion bash.
 std::variant<const ToolCommand*, int> parse(const CommandLine& program, int argc, const char* const* argv);
 
+// A program: runs the command that was asked for, and tells on standard error why it fails; the exit code.
+int run_program(const CommandLine& program, int argc, const char* const* argv);
+
 // Of a program without commands: its options are set, or it ends with the code. All options are everyday ones.
 std::optional<int> parse_options(int argc, const char* const* argv, const char* help, std::vector<Option> options);
 
