@@ -14,7 +14,7 @@ namespace oriel::sample {
 SampleScene make_cornell();
 
 // The three kinds of scene of Udeshi and Hansen, "Towards Interactive Photorealistic Rendering of Indoor Scenes", EGWR
-// 1999, of as many polygons (polygon_count()). An office of 4083 with four workplaces and two ceiling panels; a
+// 1999, of as many polygons. An office of 4083 with four workplaces and two ceiling panels; a
 // classroom of 3135 rectangles with four lamps, where the teacher's table is polished and almost every edge throws a
 // shadow; and the Cornell box of 217 with a glass sphere of 200, whose short block has a mirror for a top.
 SampleScene make_office();
@@ -71,7 +71,5 @@ inline constexpr int kMaxHouseReflectors = 36;
 // out of [0, kMaxHouseReflectors], or a lawn (other than 0) out of [kLeastLawn, kMostLawn] square metres.
 inline constexpr double kLeastLawn = 1e3, kMostLawn = 1e8;
 Result<SampleScene> make_house(const HouseOptions& options);
-// How many triangles make_house would make.
-Result<std::uint64_t> count_house(const HouseOptions& options);
 
 }  // namespace oriel::sample

@@ -347,7 +347,6 @@ struct Sized {
   SampleScene scene;
   HousePalette palette{};
   double detail = 0;
-  std::uint64_t triangles = 0;
 };
 
 Result<Sized> size_house(const HouseOptions& options) {
@@ -367,16 +366,10 @@ Result<Sized> size_house(const HouseOptions& options) {
                 kMaxTriangles);
   }
   sized.detail = detail_for(options.triangles - fixed);
-  sized.triangles = fixed + furniture_triangles(sized.detail);
   return sized;
 }
 
 }  // namespace
-
-Result<std::uint64_t> count_house(const HouseOptions& options) {
-  ORIEL_TRY(const Sized sized, size_house(options));
-  return sized.triangles;
-}
 
 Result<SampleScene> make_house(const HouseOptions& options) {
   ORIEL_TRY(Sized sized, size_house(options));

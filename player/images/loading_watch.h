@@ -18,13 +18,9 @@ class LoadingWatch {
   // Once, when all images were there for the first time: what it took.
   std::optional<std::string> news();
 
-  double first_frame_s() const { return first_s_; }
-  double all_there_s() const { return all_s_; }            // 0: not yet
-  double longest_frame_ms() const { return longest_ms_; }  // from one frame to the next, until all was there
-
  private:
   Clock::time_point started_, last_;
-  double first_s_ = 0, all_s_ = 0, longest_ms_ = 0;
+  double first_s_ = 0, all_s_ = 0, longest_ms_ = 0;  // all_s_ 0: not yet; longest_ms_: from one frame to the next
   int frames_ = 0;
   bool told_ = false;
 };

@@ -170,13 +170,4 @@ std::vector<ShadeCell> make_shade_cells(std::span<const ShadeTriangle> triangles
   return CellSplitter(triangles).split(limits);
 }
 
-std::uint32_t leaf_at(std::span<const ShadeCell> cells, const Vec3& p) {
-  std::uint32_t at = 0;
-  while (cells[at].child != 0) {
-    const std::uint32_t first = cells[at].child;
-    at = glm::all(glm::lessThan(p, cells[first].cell.upper)) ? first : first + 1;
-  }
-  return at;
-}
-
 }  // namespace oriel

@@ -40,7 +40,4 @@ struct ShadeCellLimits {
 // out.
 std::vector<ShadeCell> make_shade_cells(std::span<const ShadeTriangle> triangles, const ShadeCellLimits& limits);
 
-// Whose the point is; any leaf where it is not finite. cells: of make_shade_cells().
-std::uint32_t leaf_at(std::span<const ShadeCell> cells, const Vec3& p);
-
 }  // namespace oriel

@@ -57,12 +57,6 @@ std::optional<SceneNews> LiveScene::news() {
   return std::exchange(news_, std::nullopt);
 }
 
-std::optional<SceneNews> LiveScene::wait_for_news(double seconds) {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return news_.has_value(); });
-  return std::exchange(news_, std::nullopt);
-}
-
 std::vector<std::string> LiveScene::warnings() {
   const std::scoped_lock lock(mutex_);
   return std::exchange(warnings_, {});
@@ -86,7 +80,6 @@ void LiveScene::work() {
       news_ = loaded ? SceneNews{*loaded, {}} : SceneNews{nullptr, loaded.error()};
     }
     reading_ = false;
-    changed_.notify_all();
     if (told_) told_();
     bool followed = false;  // the files that the scene names
     if (loaded) {

@@ -29,8 +29,6 @@ class LiveScene {
   bool reading() const { return reading_; }
   // The last news, once.
   std::optional<SceneNews> news();
-  // The same, waiting for it at most so long.
-  std::optional<SceneNews> wait_for_news(double seconds);
   std::vector<std::string> warnings();  // of the last reading, once
 
  private:

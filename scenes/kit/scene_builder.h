@@ -89,7 +89,5 @@ void scale_scene(SampleScene& scene, double factor);
 
 // Triangles drawn: those of each node's mesh.
 std::uint64_t triangle_count(const SampleScene& scene);
-// The same as polygons: two triangles in a row with a common side and a common plane are a quadrilateral.
-std::uint64_t polygon_count(const SampleScene& scene);
 
 }  // namespace oriel::sample

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "formats/image/png.h"
 #include "formats/query/camera.h"
@@ -35,6 +36,16 @@ std::size_t resident() {
   std::size_t all = 0, held = 0;
   in >> all >> held;
   return held * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+// Waits for news at most so long.
+std::optional<SceneNews> news_of(LiveScene& live, double seconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (true) {
+    auto news = live.news();
+    if (news || std::chrono::steady_clock::now() >= end) return news;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 double mean_value(const FloatImage& image) {
@@ -69,7 +80,7 @@ class Live : public ::testing::Test {
 TEST_F(Live, AHundredEditsOfWhichTwentyAreBroken) {
   const auto file = folder_.write("scene.gltf", lamp_text(1));
   LiveScene live({.file = file, .import = {}}, 1, 1);
-  auto news = live.wait_for_news(30);
+  auto news = news_of(live, 30);
   ASSERT_TRUE(news && news->scene);
   double last = light_of(news->scene), slowest_s = 0;
   EXPECT_GT(last, 0);
@@ -80,7 +91,7 @@ TEST_F(Live, AHundredEditsOfWhichTwentyAreBroken) {
     const std::string text = lamp_text(1 + 0.02f * static_cast<float>(i));
     const auto saved = std::chrono::steady_clock::now();
     folder_.write("scene.gltf", breaks ? text.substr(0, text.size() / 2) : text);
-    news = live.wait_for_news(30);
+    news = news_of(live, 30);
     ASSERT_TRUE(news) << i;
     if (breaks) {
       ASSERT_FALSE(news->scene) << i;
@@ -195,16 +206,16 @@ TEST_F(Live, AnEditedFileIsSeenWithWhatStaysOfTheLast) {
 TEST_F(Live, AFileThatGoesAndComesBack) {
   const auto file = folder_.write("scene.gltf", lamp_text(1));
   LiveScene live({.file = file, .import = {}}, 1, 1);
-  auto news = live.wait_for_news(30);
+  auto news = news_of(live, 30);
   ASSERT_TRUE(news && news->scene);
   std::filesystem::remove(file);
-  news = live.wait_for_news(30);
+  news = news_of(live, 30);
   ASSERT_TRUE(news && !news->scene);
   EXPECT_EQ(news->error.code, ErrorCode::kIo);
   folder_.write("scene.gltf", lamp_text(2));
-  news = live.wait_for_news(30);
+  news = news_of(live, 30);
   ASSERT_TRUE(news && news->scene);
-  EXPECT_FALSE(live.wait_for_news(0.3));  // nothing is new
+  EXPECT_FALSE(news_of(live, 0.3));  // nothing is new
 }
 
 }  // namespace

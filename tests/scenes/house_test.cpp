@@ -9,21 +9,12 @@ namespace {
 using namespace testing;
 
 TEST(House, CountsAreWithinTenPercent) {
-  for (const std::uint64_t wanted : {10'000u, 12'345u, 20'000u, 50'000u, 100'000u, 1'000'000u, 10'000'000u}) {
+  for (const std::uint64_t wanted : {10'000u, 12'345u, 20'000u, 50'000u, 100'000u, 1'000'000u, 2'000'000u}) {
     for (const int reflectors : {0, 5, kMaxHouseReflectors}) {
-      const auto count = count_house({wanted, reflectors});
-      ASSERT_TRUE(count) << count.error().text();
-      EXPECT_NEAR(static_cast<double>(*count) / static_cast<double>(wanted), 1, 0.1) << wanted;
+      const auto house = make_house({wanted, reflectors});
+      ASSERT_TRUE(house) << house.error().text();
+      EXPECT_NEAR(static_cast<double>(triangle_count(*house)) / static_cast<double>(wanted), 1, 0.1) << wanted;
     }
-  }
-}
-
-TEST(House, MakesWhatItCounts) {
-  for (const std::uint64_t wanted : {10'000u, 150'000u, 2'000'000u}) {
-    const HouseOptions options{wanted, 7};
-    const auto house = make_house(options);
-    ASSERT_TRUE(house) << house.error().text();
-    EXPECT_EQ(triangle_count(*house), *count_house(options));
   }
 }
 

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scenes/generators.h"
 #include "tests/scenes/probe.h"
 
@@ -9,6 +11,27 @@ namespace oriel::sample {
 namespace {
 
 using namespace testing;
+
+// A triangle and the next.
+bool is_quadrilateral(const SampleMesh& mesh, std::size_t triangle) {
+  const std::uint32_t* corners = mesh.indices.data() + 3 * triangle;
+  const auto at = [&](int k) { return DVec3(mesh.positions[corners[k]]); };
+  const auto common = std::count_if(corners + 3, corners + 6,
+                                    [&](std::uint32_t c) { return std::find(corners, corners + 3, c) != corners + 3; });
+  const DVec3 first = glm::cross(at(1) - at(0), at(2) - at(0)), second = glm::cross(at(4) - at(3), at(5) - at(3));
+  return common == 2 && glm::dot(first, second) > 0.99999 * glm::length(first) * glm::length(second);
+}
+
+// Triangles drawn, as polygons: two in a row with a common side and a common plane are a quadrilateral.
+std::uint64_t polygon_count(const SampleScene& scene) {
+  std::uint64_t count = 0;
+  for (const Node& node : scene.nodes) {
+    const SampleMesh& mesh = scene.meshes[node.mesh];
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t, ++count)
+      if (t + 1 < mesh.triangle_count() && is_quadrilateral(mesh, t)) ++t;
+  }
+  return count;
+}
 
 std::size_t lamps_of(const SampleScene& scene) {
   std::size_t lamps = 0;

@@ -8,6 +8,16 @@
 
 namespace oriel {
 
+// Whose the point is; any leaf where it is not finite. cells: of make_shade_cells().
+inline std::uint32_t leaf_at(std::span<const ShadeCell> cells, const Vec3& p) {
+  std::uint32_t at = 0;
+  while (cells[at].child != 0) {
+    const std::uint32_t first = cells[at].child;
+    at = glm::all(glm::lessThan(p, cells[first].cell.upper)) ? first : first + 1;
+  }
+  return at;
+}
+
 class RandomBoxes {
  public:
   explicit RandomBoxes(unsigned seed) : random_(seed) {}
