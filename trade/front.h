@@ -1,7 +1,6 @@
 // What costs least for its error: the fronts of the trade.
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "trade/measures.h"

@@ -5,7 +5,6 @@
 
 #include "formats/analysis/error_bands.h"
 #include "formats/analysis/texel_diff.h"
-#include "formats/core/json.h"
 #include "formats/image/display.h"
 
 namespace oriel::trade {

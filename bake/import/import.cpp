@@ -1,7 +1,6 @@
 #include "bake/import/import.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "bake/import/coplanar.h"
@@ -17,7 +16,6 @@
 #include "bake/jobs/parallel.h"
 #include "convert/import_process.h"
 #include "formats/core/file.h"
-#include "formats/core/hash.h"
 
 namespace oriel {
 namespace {

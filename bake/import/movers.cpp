@@ -7,7 +7,6 @@
 
 #include "bake/import/node_names.h"
 #include "formats/core/text.h"
-#include "formats/query/mover_pose.h"
 
 namespace oriel {
 namespace {

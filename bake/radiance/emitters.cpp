@@ -5,7 +5,6 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/radiance/punctual_emitter.h"
-#include "bake/radiance/reproject.h"
 #include "bake/radiance/sun_emitter.h"
 #include "bake/trace/polygon_light.h"
 #include "bake/trace/sampler.h"

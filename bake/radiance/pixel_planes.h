@@ -1,8 +1,6 @@
 // The planes of the triangles that a radiance map's pixels hit.
 #pragma once
 
-#include <span>
-
 #include "bake/radiance/sight.h"
 
 namespace oriel {

@@ -1,7 +1,5 @@
 #include "bake/radiance/rectangle.h"
 
-#include <algorithm>
-
 #include "formats/core/convex_hull.h"
 
 namespace oriel {

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <map>
 
-#include "bake/radiance/patches.h"
 #include "bake/radiance/rectangle.h"
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"

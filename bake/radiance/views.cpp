@@ -1,7 +1,5 @@
 #include "bake/radiance/views.h"
 
-#include <algorithm>
-
 #include "bake/radiance/reproject.h"
 
 namespace oriel {

@@ -1,7 +1,6 @@
 #include "bake/reference/meter.h"
 
 #include "bake/trace/buried.h"
-#include "bake/trace/rounded.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
 

@@ -1,7 +1,6 @@
 // Where to measure: points from a table, or a workplane over a floor.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

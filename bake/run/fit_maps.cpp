@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "bake/jobs/parallel.h"
 #include "bake/radiance/surround_capture.h"
 #include "bake/run/lobe_share.h"
 

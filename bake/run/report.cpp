@@ -2,7 +2,6 @@
 
 #include "bake/radiosity/texels/frame_error.h"
 #include "bake/run/option_table.h"
-#include "bake/run/pipeline.h"
 #include "bake/run/version.h"
 #include "formats/core/half.h"
 #include "formats/core/json.h"

@@ -1,8 +1,6 @@
 // What a pack says of itself, as JSON.
 #pragma once
 
-#include <optional>
-
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/movers.h"
 #include "bake/run/pipeline.h"

@@ -6,7 +6,6 @@
 
 #include "formats/core/color.h"
 #include "formats/core/json.h"
-#include "formats/query/mesh_rays.h"
 
 namespace oriel {
 namespace {

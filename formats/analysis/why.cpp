@@ -8,7 +8,6 @@
 #include "formats/core/color.h"
 #include "formats/core/json.h"
 #include "formats/core/result.h"
-#include "formats/query/mesh_rays.h"
 
 namespace oriel {
 namespace {

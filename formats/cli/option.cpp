@@ -5,10 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <type_traits>
 #include <utility>
-
-#include "formats/core/json.h"
 
 namespace oriel {
 namespace {

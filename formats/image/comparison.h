@@ -1,7 +1,6 @@
 // What is measured of a frame beside its reference.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "formats/core/json.h"
 #include "formats/export/mesh_obj.h"
 #include "formats/inspect/commands.h"

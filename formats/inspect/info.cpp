@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdio>
 
 #include "formats/core/file.h"
 #include "formats/core/json.h"

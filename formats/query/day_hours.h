@@ -1,8 +1,6 @@
 // A time between the hours that were baked.
 #pragma once
 
-#include <optional>
-
 #include "formats/assets/day.h"
 #include "formats/core/result.h"
 

@@ -1,8 +1,5 @@
 #include "formats/query/live_lights.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
 
 #include "formats/core/color.h"

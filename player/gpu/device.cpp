@@ -3,7 +3,6 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "player/gpu/texture.h"
 

@@ -1,7 +1,5 @@
 #include "player/gpu/texture.h"
 
-#include <algorithm>
-
 namespace oriel::gpu {
 
 int mip_levels(int width, int height) {

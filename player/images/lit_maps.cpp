@@ -1,6 +1,5 @@
 // Radiance and surround maps as lamps shine now.
 #include <algorithm>
-#include <new>
 
 #include "formats/core/parallel.h"
 #include "player/images/image_source.h"

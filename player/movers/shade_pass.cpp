@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "player/scene/surface.h"
-
 namespace oriel {
 namespace {
 

@@ -1,7 +1,5 @@
 #include "player/output/played_frame.h"
 
-#include "formats/image/display.h"
-
 namespace oriel {
 namespace {
 

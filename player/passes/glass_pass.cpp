@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "player/gpu/raster_state.h"
 #include "player/scene/surface.h"
 
 namespace oriel {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "player/gpu/raster_state.h"
 #include "player/reflections/reflected_view.h"
 #include "player/scene/surface.h"
 

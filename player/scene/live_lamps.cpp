@@ -6,7 +6,6 @@
 #include <future>
 #include <limits>
 
-#include "formats/core/color.h"
 #include "formats/core/parallel.h"
 #include "player/scene/lights.h"
 #include "player/scene/live_page.h"

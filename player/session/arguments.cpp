@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "formats/cli/command.h"
-#include "formats/core/json.h"
 #include "formats/core/text.h"
 #include "player/session/keys.h"
 #include "player/session/live_options.h"

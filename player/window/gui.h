@@ -1,8 +1,6 @@
 // Dear ImGui over a GLFW window.
 #pragma once
 
-#include <memory>
-
 struct GLFWwindow;
 
 namespace oriel {

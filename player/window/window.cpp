@@ -1,6 +1,5 @@
 #include "player/window/window.h"
 
-#include <chrono>
 #include <thread>
 
 #include "formats/core/file.h"

@@ -1,7 +1,5 @@
 #include "preview/frame/eye_points.h"
 
-#include <algorithm>
-
 #include "bake/trace/rounded.h"
 #include "bake/trace/sampler.h"
 
