@@ -6,6 +6,7 @@
 #include "bake/run/assemble.h"
 #include "bake/run/fit_maps.h"
 #include "bake/run/inputs.h"
+#include "bake/run/shortfalls.h"
 #include "formats/pack/writer.h"
 
 namespace oriel {
@@ -14,7 +15,6 @@ namespace {
 constexpr double kCoarser = 4;              // texels of the finer pilot: 1/16 as many, of the coarser one 1/64
 constexpr double kLeastPilotTexels = 2000;  // of the finer one, where the scene has as many
 constexpr double kMissed = 1.5;             // the error asked for by so much: rays a texel are limited
-constexpr double kSlowPaths = 1.5;          // a ray of verification takes longer than a gathered one
 constexpr double kNominalError = 0.02;      // of pilots where time alone limits the work
 constexpr double kLeastAskedError = 1e-3;   // what a bake limited by time alone asks for
 

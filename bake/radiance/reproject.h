@@ -5,6 +5,8 @@
 
 namespace oriel {
 
+inline constexpr float kSameDisparity = 0.03f;  // relative: of a sample and a pixel that holds it, or beside it
+
 // The mirror image in the reflector's plane, reflector space.
 inline Vec3 mirrored(const Vec3& p) {
   return {p.x, p.y, -p.z};

@@ -13,11 +13,10 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kRounds = 32;    // of as many pairs as samples are asked for
-constexpr float kSameDistance = 2e-3f;   // relative: two rays that meet the same point
-constexpr float kSameDisparity = 0.03f;  // relative: of a sample and a pixel beside it
-constexpr float kNearestEye = 0.1f;      // metres: closer eyes would outweigh all others
-constexpr float kFlattest = 1e-3f;       // cosine at which surfaces are seen edge-on
+constexpr std::uint32_t kRounds = 32;   // of as many pairs as samples are asked for
+constexpr float kSameDistance = 2e-3f;  // relative: two rays that meet the same point
+constexpr float kNearestEye = 0.1f;     // metres: closer eyes would outweigh all others
+constexpr float kFlattest = 1e-3f;      // cosine at which surfaces are seen edge-on
 
 bool depth_is_enough(const SeenSurface&) {
   return false;

@@ -11,7 +11,6 @@ namespace oriel {
 namespace {
 
 constexpr int kMaxReflectedLayers = 64;    // of transmitting surfaces before the first opaque one
-constexpr float kSeeThrough = 0.5f;        // transmittance from which depth is that of what lies behind
 constexpr float kImage = 0.5f;             // reflectance from which depth is that of the mirror's image
 constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
 constexpr float kBackdrop = 1e-3f;         // of the scene's diagonal: how far outside its bounds a plain sky stands

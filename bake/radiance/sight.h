@@ -9,6 +9,9 @@
 
 namespace oriel {
 
+// Transmittance from which a surface hides nothing: depth is that of what lies behind.
+inline constexpr float kSeeThrough = 0.5f;
+
 struct SightOptions {
   std::uint32_t orders = 2;             // mirrors a ray may meet, its own reflector counted: at least 1
   float max_chain_roughness = 0.1f;     // of mirrors after the first: wider lobes are not followed

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
+#include "bake/radiance/sight.h"
 #include "bake/scene/shade.h"
 #include "bake/trace/albedo.h"
 
 namespace oriel {
 namespace {
 
-constexpr int kMaxSurroundLayers = 64;       // of surfaces before the first opaque one
-constexpr float kSurroundSeeThrough = 0.5f;  // transmittance from which distance is that of what lies behind
-constexpr float kNearest = 1e-3f;            // of the object's size: a surface through the very centre has no distance
+constexpr int kMaxSurroundLayers = 64;  // of surfaces before the first opaque one
+constexpr float kNearest = 1e-3f;       // of the object's size: a surface through the very centre has no distance
 constexpr float kSurroundStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
 constexpr float kAtBounds = 1 - 1e-4f;  // of the way out of the bounds: what the object stands on is not in it
 
@@ -88,7 +88,7 @@ void SurroundRays::meet(const Hit& hit, const Vec3& p, const Vec3& direction, Su
   const bool back = !hit.front && !material.double_sided;
   if (coverage > 0 && !back) sight.layers.push_back({hit, sight.throughput * coverage});
   sight.throughput *= through;
-  if (max_component(through) >= kSurroundSeeThrough) return;
+  if (max_component(through) >= kSeeThrough) return;
   sight.ended = true;
   sight.inverse_distance = 1 / std::max(glm::length(p - centre_), nearest_);
   sight.valid = back ? 0 : 1;

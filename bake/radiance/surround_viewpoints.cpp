@@ -19,7 +19,6 @@ namespace {
 constexpr std::uint32_t kTries = 4096;    // pairs of an eye and a point
 constexpr std::size_t kEnough = 256;      // of them that see each other
 constexpr int kLayers = 16;               // of the object itself and of glass before the first surface that counts
-constexpr float kHidesNothing = 0.5f;     // transmittance from which a surface hides nothing
 constexpr float kMirror = 1e-3f;          // alpha up to which a lobe has one direction
 constexpr float kSame = 1e-3f;            // of the distance: so near is the same surface
 constexpr float kLeastDistance_m = 0.5f;  // of eyes, for their solid angle
@@ -123,7 +122,7 @@ class Viewpoint {
       if (!hit) return hit;
       const bool own_back = !hit.front && is_among(scene_, object_.triangles, hit.triangle);
       const bool passes =
-          own_back || max_component(transmittance_at(scene_, hit.triangle, hit.barycentric)) >= kHidesNothing;
+          own_back || max_component(transmittance_at(scene_, hit.triangle, hit.barycentric)) >= kSeeThrough;
       if (!passes) return hit;
       ray.origin = spawn_origin(scene_, hit.triangle, hit.barycentric, direction);
     }

@@ -12,8 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kCameraSamples = 2048;
-constexpr std::size_t kMostBacks = 4;    // named
-constexpr float kSameDisparity = 0.03f;  // relative: of a sample and a pixel that holds it
+constexpr std::size_t kMostBacks = 4;  // named
 
 // Mean of the pixels around a place that hold the same surface, by their bilinear weights; none where none does.
 std::optional<Vec3> colour_at(const RadianceMap& map, const ReflectedSample& s) {

@@ -5,8 +5,7 @@
 namespace oriel {
 namespace {
 
-constexpr double kSlowPaths = 1.5;  // a ray of verification takes longer than a gathered one
-constexpr double kWorse = 1.3;      // times the error that was stated, which is worth a warning
+constexpr double kWorse = 1.3;  // times the error that was stated, which is worth a warning
 
 void fall_short(const std::string& why, Context& context, std::vector<std::string>& shortfalls) {
   shortfalls.push_back(why);

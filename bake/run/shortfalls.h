@@ -11,6 +11,8 @@
 
 namespace oriel {
 
+inline constexpr double kSlowPaths = 1.5;  // a ray of verification takes longer than a gathered one
+
 // Each warns, and adds why to the shortfalls.
 
 // An error that was named, alone or with a time, is missed; the default one is a wish, and a warning only.
