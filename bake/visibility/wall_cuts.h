@@ -1,6 +1,7 @@
 // Lines under thin walls, at which the charts of floors, ceilings and other walls end.
 #pragma once
 
+#include "bake/jobs/context.h"
 #include "bake/trace/accel.h"
 
 namespace oriel {

@@ -1,5 +1,6 @@
 // The shading equation on flat surfaces under known light, read back as cd/m².
 #include "formats/core/color.h"
+#include "formats/query/camera.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {
