@@ -20,8 +20,7 @@ struct ImagePrices {
 ImagePrices image_prices(const std::string& renderer);
 // Of a whole frame of 1280 x 720 pixels, unless the user tells: milliseconds.
 float device_budget_ms(const std::string& renderer);
-// What images may cost in a frame of that size, for so many milliseconds at 1280 x 720: larger images cost more.
-// coarse: while something moves.
+// What images may cost in a frame of that size, where they may cost that at 1280 x 720. coarse: while something moves.
 float frame_budget_ms(float budget_ms, int width, int height, bool coarse);
 // Whether it draws on processors.
 bool is_software(const std::string& renderer);
