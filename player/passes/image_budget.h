@@ -22,7 +22,6 @@ ImagePrices image_prices(const std::string& renderer);
 float device_budget_ms(const std::string& renderer);
 // What images may cost in a frame of that size, where they may cost that at 1280 x 720. coarse: while something moves.
 float frame_budget_ms(float budget_ms, int width, int height, bool coarse);
-// Whether it draws on processors.
 bool is_software(const std::string& renderer);
 
 struct PricedImage {

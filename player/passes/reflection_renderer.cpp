@@ -90,8 +90,8 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
   std::vector<MarkedReflector> out;
   const auto& [scene, view, options, stats] = context;
   if (!shows_reflectors(options)) return out;
-  if (target.frame != nullptr) image_count_ = 0;
   if (target.frame == nullptr && target.budget_ms < prices_.image_ms) return out;
+  if (target.frame != nullptr) image_count_ = 0;
   for (const GpuReflector& reflector : scene.reflectors()) {
     const bool maps = shows_maps(reflector, options);
     if (reflector.index_count == 0 || (maps && options.maps_per_element <= 0)) continue;
@@ -120,19 +120,20 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
     return m.screen.empty || m.waits || (target.frame == nullptr && shows_least(m));
   });
   afford(context, target, out);
-  std::erase_if(out, [&](MarkedReflector& m) {
+  std::vector<MarkedReflector> drawn;
+  for (MarkedReflector& m : out) {
     const std::uint32_t material = m.reflector->material;
     const bool see_through = scene.is_transparent(material);
-    if (!see_through && marks.materials.size() + 1 >= kMoverBits) return true;  // more than the stencil counts
+    if (!see_through && marks.materials.size() + 1 >= kMoverBits) continue;  // more than the stencil counts
     if (!see_through) {
       marks.materials.push_back(material);
       marks.reflective.insert(material);
       m.value = static_cast<GLint>(marks.materials.size());
     }
     reflector_pass_.draw_mask(context, *m.reflector, see_through ? kSeeThroughBit : static_cast<GLuint>(m.value));
-    return false;
-  });
-  return out;
+    drawn.push_back(m);
+  }
+  return drawn;
 }
 
 ImageRect ReflectionRenderer::rect_of(const FrameContext& context, const MarkedReflector& marked) const {
@@ -152,7 +153,7 @@ void ReflectionRenderer::afford(const FrameContext& context, const ReflectionTar
   std::vector<PricedImage> images;
   for (const MarkedReflector& m : found) {
     const ImageRect rect = rect_of(context, m);
-    const float share = target.share * share_of_picture(m.screen);
+    const float share = share_of_picture(m.screen);
     std::uint64_t triangles = 0, parts = 0;
     if (!shows_maps(*m.reflector, options)) {
       for (const DrawBatch& batch :
@@ -162,16 +163,17 @@ void ReflectionRenderer::afford(const FrameContext& context, const ReflectionTar
       }
     }
     const bool mirror = reflectance_of(scene.pack(), m.reflector->material) >= kMirroring;
-    images.push_back({m.worth * share_of_picture(m.screen) * image_gain(scene, view, *m.reflector, m.screen),
+    images.push_back({m.worth * share * image_gain(scene, view, *m.reflector, m.screen),
                       prices_.of(parts, triangles, std::uint64_t(rect.width) * std::uint64_t(rect.height)),
                       target.frame != nullptr && mirror && share >= kLargeShare});
   }
   const std::vector<ImageAllowance> allowed = afford_images(images, target.budget_ms);
-  std::size_t i = 0;
-  std::erase_if(found, [&](MarkedReflector& m) {
-    m.budget_ms = allowed[i].within_ms;
-    return !allowed[i++].drawn;
-  });
+  std::vector<MarkedReflector> drawn;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    found[i].budget_ms = allowed[i].within_ms;
+    if (allowed[i].drawn) drawn.push_back(found[i]);
+  }
+  found = std::move(drawn);
 }
 
 std::vector<DrawBatch> ReflectionRenderer::batches_in(const FrameContext& context, const ReflectionTarget& target,

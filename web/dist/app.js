@@ -296,8 +296,7 @@ vec4 texture_along(sampler2D image,vec2 uv){
 vec2 size=vec2(textureSize(image,0)),dx=dFdx(uv),dy=dFdy(uv);
 float x=length(dx*size),y=length(dy*size);
 vec2 longer=x > y ? dx : dy;
-float most=max(x,y),places=clamp(floor(most / max(min(x,y),1e-6)+ 0.5),1.0,min(kMostPlaces,max(most,1.0)));
-places=floor(places);
+float most=max(x,y),places=floor(clamp(most / max(min(x,y),1e-6)+ 0.5,1.0,min(kMostPlaces,max(most,1.0))));
 float level=log2(max(most / places,1e-6));
 if(places < 1.5)return textureLod(image,uv,level);
 vec4 sum=vec4(0.0);
