@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "formats/core/vec.h"
@@ -46,7 +47,11 @@ struct LightmapPage {
   // is finer.
   std::vector<std::uint32_t> cell{};
   std::uint32_t detail_width = 0, detail_height = 0;
-  std::vector<Vec3> detail{};  // lux, as irradiance
+  std::vector<Vec3> detail{};  // lux, as irradiance but without sharp light
+  // Where lamps' direct light is computed by pixel (sharp_light.h), else empty. sharp: what of `irradiance` that is,
+  // lux. sharp_at: by texel, its record in SharpLight::words.
+  std::vector<Vec3> sharp{};
+  std::vector<std::uint32_t> sharp_at{};
 };
 
 // Where an image of details holds a cell: (side + 1)² points, the first in each row and the last above texel centres.
@@ -62,31 +67,59 @@ struct DetailBlock {
 inline constexpr std::uint32_t kMostDetail = 32;        // steps along a cell's side
 inline constexpr std::uint32_t kMaxDetailSide = 16384;  // points of an image of details
 
-// Irradiance at a place of a page, uv in [0,1]: bilinear, from a cell's own points where it has some. Texels beyond the
-// page's border are those at it.
-inline Vec3 irradiance_at(const LightmapPage& page, const Vec2& uv) {
-  const auto bilinear = [](const std::vector<Vec3>& light, std::uint32_t width, std::size_t first, std::uint32_t right,
-                           std::uint32_t down, const Vec2& f) {
-    const std::size_t below = first + std::size_t{down} * width;
-    return glm::mix(glm::mix(light[first], light[first + right], f.x),
-                    glm::mix(light[below], light[below + right], f.x), f.y);
-  };
+namespace lightmap_detail {
+
+inline Vec3 bilinear(const std::vector<Vec3>& light, std::uint32_t width, std::size_t first, std::uint32_t right,
+                     std::uint32_t down, const Vec2& f) {
+  const std::size_t below = first + std::size_t{down} * width;
+  return glm::mix(glm::mix(light[first], light[first + right], f.x), glm::mix(light[below], light[below + right], f.x),
+                  f.y);
+}
+
+// A place between texels' centres. The last cell's end is its own: beyond it there is none.
+struct CellPlace {
+  std::size_t texel = 0;  // at the cell's lower corner
+  Vec2 within{0};
+  std::uint32_t right = 0, down = 0;  // to the next texels
+
+  Vec3 of(const LightmapPage& page, const std::vector<Vec3>& light) const {
+    return bilinear(light, page.width, texel, right, down, within);
+  }
+};
+
+inline CellPlace cell_place(const LightmapPage& page, const Vec2& uv) {
   const float x = std::clamp(uv.x * static_cast<float>(page.width) - 0.5f, 0.0f, static_cast<float>(page.width - 1));
   const float y = std::clamp(uv.y * static_cast<float>(page.height) - 0.5f, 0.0f, static_cast<float>(page.height - 1));
-  // The last cell's end is its own: beyond it there is none.
   const auto cx = std::min(static_cast<std::uint32_t>(x), std::max(page.width, 2u) - 2);
   const auto cy = std::min(static_cast<std::uint32_t>(y), std::max(page.height, 2u) - 2);
-  const Vec2 within(x - static_cast<float>(cx), y - static_cast<float>(cy));
-  const std::size_t texel = std::size_t{cy} * page.width + cx;
-  if (page.cell.empty() || page.cell[texel] == 0)
-    return bilinear(page.irradiance, page.width, texel, cx + 1 < page.width ? 1 : 0, cy + 1 < page.height ? 1 : 0,
-                    within);
-  const DetailBlock block = DetailBlock::of(page.cell[texel]);
-  const Vec2 at = within * static_cast<float>(block.side());
-  const auto px = std::min(static_cast<std::uint32_t>(at.x), block.side() - 1);
-  const auto py = std::min(static_cast<std::uint32_t>(at.y), block.side() - 1);
+  return {std::size_t{cy} * page.width + cx, Vec2(x - static_cast<float>(cx), y - static_cast<float>(cy)),
+          cx + 1 < page.width ? 1u : 0u, cy + 1 < page.height ? 1u : 0u};
+}
+
+inline Vec3 smooth_at(const LightmapPage& page, const CellPlace& at) {
+  if (page.cell.empty() || page.cell[at.texel] == 0) {
+    const Vec3 light = at.of(page, page.irradiance);
+    return page.sharp.empty() ? light : glm::max(light - at.of(page, page.sharp), Vec3(0));
+  }
+  const DetailBlock block = DetailBlock::of(page.cell[at.texel]);
+  const Vec2 in = at.within * static_cast<float>(block.side());
+  const auto px = std::min(static_cast<std::uint32_t>(in.x), block.side() - 1);
+  const auto py = std::min(static_cast<std::uint32_t>(in.y), block.side() - 1);
   return bilinear(page.detail, page.detail_width, std::size_t{block.y + py} * page.detail_width + block.x + px, 1, 1,
-                  at - Vec2(px, py));
+                  in - Vec2(px, py));
+}
+
+}  // namespace lightmap_detail
+
+// Irradiance at a place of a page without sharp light, uv in [0,1]: bilinear, from a cell's own points where it has
+// some. Texels beyond the page's border are those at it. irradiance_at() has the sharp light of texels in it.
+inline Vec3 smooth_irradiance_at(const LightmapPage& page, const Vec2& uv) {
+  return lightmap_detail::smooth_at(page, lightmap_detail::cell_place(page, uv));
+}
+inline Vec3 irradiance_at(const LightmapPage& page, const Vec2& uv) {
+  const lightmap_detail::CellPlace at = lightmap_detail::cell_place(page, uv);
+  const Vec3 light = lightmap_detail::smooth_at(page, at);
+  return page.sharp.empty() ? light : light + at.of(page, page.sharp);
 }
 
 // E(n) / E(g): how the irradiance at a texel changes when its normal g is tilted to n (both unit). d is read as an even
