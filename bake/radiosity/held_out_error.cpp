@@ -9,6 +9,7 @@
 #include "bake/radiosity/texels/texel_paths.h"
 #include "formats/core/color.h"
 #include "formats/core/half.h"
+#include "formats/query/sharp_light.h"
 
 namespace oriel {
 namespace {
@@ -46,29 +47,37 @@ DVec3 stored_light(const LightmapPage& page, std::uint32_t texel) {
   return {as_half(light.r), as_half(light.g), as_half(light.b)};
 }
 
-// Irradiance as the player reads it, lux.
-DVec3 read_light(std::span<const LightmapPage> pages, const FramePixel& pixel) {
+// Irradiance as the player shows it, lux.
+DVec3 read_light(const Scene& scene, std::span<const LightmapPage> pages, const SharpLight* sharp,
+                 const FramePixel& pixel) {
   const LightmapPage& page = pages[pixel.page];
   const Vec2 first(pixel.texel[0] % page.width, pixel.texel[0] / page.width);
   const Vec2 beyond(pixel.share[1] + pixel.share[3], pixel.share[2] + pixel.share[3]);
-  const Vec3 light = irradiance_at(page, (first + beyond + 0.5f) / Vec2(page.width, page.height));
-  return {as_half(light.r), as_half(light.g), as_half(light.b)};
+  const Vec2 uv = (first + beyond + 0.5f) / Vec2(page.width, page.height);
+  const Vec3 smooth = smooth_irradiance_at(page, uv);
+  const DVec3 light(as_half(smooth.r), as_half(smooth.g), as_half(smooth.b));
+  if (sharp == nullptr || page.sharp_at.empty()) return light;
+  return light + DVec3(sharp_irradiance(*sharp, page, uv, point_on(scene, pixel.triangle, pixel.barycentric),
+                                        geometric_normal(scene, pixel.triangle)));
 }
 
-std::vector<HeldOutPixel> hold_out(std::span<const TexelMapPage> map, std::span<const LightmapPage> pages,
-                                   std::span<const FramePixel> pixels, HeldOutTarget target) {
+std::vector<HeldOutPixel> hold_out(const LightmapScene& scene, std::span<const LightmapPage> pages,
+                                   std::span<const FramePixel> pixels, const HeldOutQuery& query) {
+  const auto read = [&](const FramePixel& p) {
+    return read_light(scene.transport.accel.scene(), pages, query.sharp, p);
+  };
   const auto shown = [&](const FramePixel& p, const DVec3& light) { return DVec3(p.transfer) * light; };
   const std::vector<DVec3> floors2 =
-      frame_floors2(pixels, [&](std::size_t i) { return shown(pixels[i], read_light(pages, pixels[i])); });
+      frame_floors2(pixels, [&](std::size_t i) { return shown(pixels[i], read(pixels[i])); });
   std::vector<HeldOutPixel> chosen;
   for (std::size_t i = 0; i < pixels.size() && chosen.size() < kMostPixels; ++i) {
     const FramePixel& p = pixels[i];
-    HeldOutPixel h{&p, i, 0, shown(p, read_light(pages, p)) + DVec3(p.emitted), floors2[p.view]};
-    if (target == HeldOutTarget::kTexels) {
+    HeldOutPixel h{&p, i, 0, shown(p, read(p)) + DVec3(p.emitted), floors2[p.view]};
+    if (query.target == HeldOutTarget::kTexels) {
       const std::uint32_t most =
           p.texel[static_cast<std::size_t>(std::max_element(p.share.begin(), p.share.end()) - p.share.begin())];
       if (pages[p.page].state[most] != TexelState::kValid) continue;
-      const auto& texels = map[p.page].texel;
+      const auto& texels = scene.map[p.page].texel;
       h.index = static_cast<std::size_t>(std::lower_bound(texels.begin(), texels.end(), most) - texels.begin());
       h.baked = shown(p, stored_light(pages[p.page], most)) + DVec3(p.emitted);
     }
@@ -222,7 +231,7 @@ Result<HeldOutError> measure_held_out_error(const LightmapScene& scene, std::spa
                                             std::span<const FramePixel> pixels, const HeldOutQuery& query,
                                             Context& context) {
   HeldOutError c;
-  std::vector<HeldOutPixel> held_out = hold_out(scene.map, pages, pixels, query.target);
+  std::vector<HeldOutPixel> held_out = hold_out(scene, pages, pixels, query);
   Verifier verifier(scene, query, context);
   std::span<const HeldOutPixel> compared;
   while (compared.size() < held_out.size()) {

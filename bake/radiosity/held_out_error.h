@@ -28,7 +28,8 @@ struct HeldOutQuery {
   HeldOutTarget target = HeldOutTarget::kPoints;
   double error = 0;  // requested, relative
   std::uint64_t rays_at_most = 0;
-  std::span<const Vec3> eyes{};  // view positions, as in list_texels()
+  std::span<const Vec3> eyes{};       // view positions, as in list_texels()
+  const SharpLight* sharp = nullptr;  // of the pages; null: all light is the texels'
 };
 
 // Compares the light of held-out pixels, as the pack stores it (half floats), with three independent path estimates

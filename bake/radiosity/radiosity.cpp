@@ -13,6 +13,7 @@
 #include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/held_out_error.h"
 #include "bake/radiosity/seams.h"
+#include "bake/radiosity/shadow_lists.h"
 #include "bake/radiosity/stitch.h"
 #include "bake/radiosity/texels/fit_texels.h"
 #include "bake/radiosity/texels/frame_error.h"
@@ -31,6 +32,7 @@ constexpr float kAssumed =
     0.5f;  // relative error of light that is that of near texels: rather too much, nothing measures it
 constexpr double kMeets = 0.05;  // relative difference of two sides of a seam, half
 
+constexpr double kSharpTime = 0.1;         // of what is left: lists of what stands between texels and lamps
 constexpr double kTolerated = 1.1;         // factor of the error requested, for the held-out error
 constexpr double kUnexplained = 0.3;       // of the squared error requested: a larger rest is due to cache look-ups,
 constexpr double kLongerPathsLeave = 0.5;  // of which longer paths leave this fraction
@@ -194,6 +196,7 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
     if (task.options.fit_texels) fit_texels(task.atlas, task.map[p], light.pages[p], groups);
     if (groups_lead(task, light)) add_up_groups(&LightmapPage::irradiance, p, light);
     groups.push_back(&light.pages[p]);
+    if (!light.sharp.empty()) light.sharp[p].state = light.pages[p].state, groups.push_back(&light.sharp[p]);
     for (LightmapPage* page : groups) {
       fill_buried(task.atlas, task.map[p], *page);
       dilate(task.options.dilation, *page);
@@ -235,12 +238,39 @@ Status add_detail_in_time(const RadiosityTask& task, const LightEstimator& estim
   return {};
 }
 
+// Which light is computed by pixel, and what stands in its way. Nothing where there is no time for it.
+Result<bool> find_sharp_light(const RadiosityTask& task, ShadowLists& shadows) {
+  const double most = task.options.left ? (1 - kSharpTime) * task.options.left() : 0;
+  const auto late = [&] { return task.options.left() < most; };
+  ORIEL_TRY(const bool all,
+            done_in_time(task.context, task.options.left ? late : std::function<bool()>(), [&]() -> Status {
+              ORIEL_TRY(shadows, list_shadows(task, task.quick));
+              return {};
+            }));
+  if (!all)
+    task.context.warning({"shadows of points, spots and suns are as coarse as texels: --time left none for finer ones",
+                          WarningKind::kTimeOver});
+  return all;
+}
+
+// From here on pages have all light.
+void add_sharp_light(const ShadowLists& shadows, Radiosity& light) {
+  for (std::size_t p = 0; p < light.sharp.size(); ++p) {
+    if (shadows.at[p].empty()) continue;
+    LightmapPage& page = light.pages[p];
+    page.sharp = std::move(light.sharp[p].irradiance), page.sharp_at = shadows.at[p];
+    for (std::size_t i = 0; i < page.sharp.size(); ++i) page.irradiance[i] += page.sharp[i];
+  }
+  light.sharp.clear();
+}
+
 Result<HeldOutError> measure_error(const RadiosityTask& task, HeldOutTarget target,
                                    std::span<const FramePixel> held_out, const Radiosity& light) {
   const auto at_most = static_cast<std::uint64_t>(task.options.verify * static_cast<double>(task.work()));
   const RadiosityOptions& options = task.options;
   const double goal = options.error > 0 ? options.error : light.report.relative_error;
-  auto c = measure_held_out_error(task, light.pages, held_out, {target, goal, at_most, options.eyes}, task.context);
+  auto c = measure_held_out_error(task, light.pages, held_out,
+                                  {target, goal, at_most, options.eyes, &light.sharp_light}, task.context);
   if (c) task.paths.count(c->rays);
   return c;
 }
@@ -318,7 +348,15 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
   context.foretell("first light", 0);
   ORIEL_TRY(const std::vector<FramePixel> pixels,
             pixels_of(scene, options.eyes, mix64(context.seed + seeds::kFramePixels), context));
-  const RadiosityTask task{scene, pixels, options, context, {context, &rays}, {context, &quick_rays}};
+  RadiosityTask task{scene, pixels, options, context, {context, &rays}, {context, &quick_rays}};
+  SharpCharts charts;
+  ShadowLists shadows;
+  if (options.sharp && options.estimator == Estimator::kCached && options.hidden == Hidden::kLeftOut) {
+    charts = find_sharp_charts(scene.transport.accel.scene(), scene.atlas);
+    task.sharp = &charts;
+    ORIEL_TRY(const bool all, charts.lights.empty() ? Result<bool>(false) : find_sharp_light(task, shadows));
+    if (!all) task.sharp = nullptr;
+  }
   ORIEL_TRY(const std::unique_ptr<LightEstimator> estimator, make_estimator(task));
   Radiosity light;
   Goal goal{.error = options.error};
@@ -326,6 +364,7 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
     ORIEL_TRY_VOID(estimator->refine(goal));
     if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
     light = empty_radiosity(scene.map, options.directional);
+    if (task.sharp) light.sharp = empty_radiosity(scene.map, false).pages;
     light.report.refinements = refinements;
     estimator->write(light);
     write_groups(task, *estimator, light);
@@ -335,6 +374,8 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
     for (std::size_t p = 0; p < light.pages.size() && groups_lead(task, light); ++p)
       add_up_groups(&LightmapPage::detail, p, light);
     rescale_light_groups(light);
+    light.sharp_light = shadows.light;
+    add_sharp_light(shadows, light);
     summarize(task, light);
     std::vector<FramePixel> held_out;
     ORIEL_TRY(light.report.held_out_error, verify(task, light, held_out));

@@ -41,7 +41,7 @@ class CachedEstimator : public LightEstimator {
         texels_(std::move(texels)),
         order_(coherent_order(texels_)),
         sample_points_(task, texels_, task.context.seed),
-        direct_light_(task.transport, texels_, sample_points_, task.context.seed),
+        direct_light_(task.transport, texels_, sample_points_, task.context.seed, task.sharp),
         query_(task.transport, texels_, direct_light_.closed_form(), task.context.seed),
         direct_(texels_.count(), options_.directional, query_.groups()),
         gathered_(texels_.count(), options_.directional, query_.groups()),
@@ -67,8 +67,9 @@ class CachedEstimator : public LightEstimator {
     report.ended_early = ended_early_, report.out_of_rays = out_of_rays_, report.first_rays = first_rays_;
     report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
-    write_texels({texels_, smooth_direct_, estimate_, direct_.moments, of_gathered, reuse_ ? &*reuse_ : nullptr},
-                 light);
+    write_texels(
+        {texels_, smooth_direct_, estimate_, direct_.sharp, direct_.moments, of_gathered, reuse_ ? &*reuse_ : nullptr},
+        light);
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
@@ -225,7 +226,7 @@ class CachedEstimator : public LightEstimator {
 
   std::vector<Vec3> light() const {
     std::vector<Vec3> light(smooth_direct_.value);
-    for (std::size_t i = 0; i < light.size(); ++i) light[i] += estimate_.value[i];
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] += estimate_.value[i] + direct_.sharp[i];
     return light;
   }
 

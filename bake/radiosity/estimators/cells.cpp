@@ -25,9 +25,9 @@ constexpr std::uint32_t kNone = ~0u;
 // Texel data of a page, by place.
 class PageCells {
  public:
-  PageCells(const Atlas& atlas, const TexelMapPage& map, const LightmapPage& page, const std::vector<float>& visible,
-            const CellTexels& texels)
-      : map_(map), page_(page), visible_(visible), number_(page.state.size(), kNone), texels_(texels) {
+  PageCells(const Atlas& atlas, const TexelMapPage& map, const LightmapPage& page, const LightmapPage* sharp,
+            const std::vector<float>& visible, const CellTexels& texels)
+      : map_(map), page_(page), sharp_(sharp), visible_(visible), number_(page.state.size(), kNone), texels_(texels) {
     for (std::uint32_t i = 0; i < map.texel.size(); ++i) {
       number_[map.texel[i]] = i;
       chart_.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);
@@ -97,7 +97,8 @@ class PageCells {
       if (bend_[i]) bend = std::max(bend, *bend_[i]), narrow = false;
       if (!reflected_bend_.empty()) reflected_bend = std::max(reflected_bend, reflected_bend_[i]);
       occlusion_heavy = occlusion_heavy || texels_.occlusion_heavy[i];
-      light_sum += double{light(i)}, share += double{texels_.importance[i]};
+      light_sum += double{light(i)} + (sharp_ ? double{luminance(sharp_->irradiance[corner])} : 0),
+          share += double{texels_.importance[i]};
       ++corners;
     }
     if (corners == 0 || share <= 0) return;
@@ -114,6 +115,7 @@ class PageCells {
 
   const TexelMapPage& map_;
   const LightmapPage& page_;
+  const LightmapPage* sharp_;               // null: it has all light
   const std::vector<float>& visible_;       // by texel of the map
   std::vector<std::uint32_t> number_;       // by place, into the map
   std::vector<std::uint32_t> chart_;        // by texel of the map
@@ -217,7 +219,8 @@ std::vector<CellCandidate> find_cells(const Atlas& atlas, std::span<const TexelM
   std::size_t first = 0;
   for (std::uint32_t p = 0; p < map.size(); ++p) {
     const std::size_t count = map[p].texel.size();
-    PageCells(atlas, map[p], light.pages[p], light.visible[p], texels.of(first, count))
+    PageCells(atlas, map[p], light.pages[p], light.sharp.empty() ? nullptr : &light.sharp[p], light.visible[p],
+              texels.of(first, count))
         .add(p, goal, usual, light.at_seam.empty() ? std::vector<bool>() : light.at_seam[p], found);
     first += count;
   }

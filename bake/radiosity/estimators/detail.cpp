@@ -25,7 +25,9 @@ double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<con
   for (std::size_t p = 0; p < task.map.size(); ++p)
     for (const std::uint32_t texel : task.map[p].texel) {
       const double share = importance[number++];
-      sum += share * double{luminance(light.pages[p].irradiance[texel])}, all += share;
+      Vec3 lux = light.pages[p].irradiance[texel];
+      if (!light.sharp.empty()) lux += light.sharp[p].irradiance[texel];
+      sum += share * double{luminance(lux)}, all += share;
     }
   return all > 0 ? kFrameFloor * sum / all : 0;
 }

@@ -19,6 +19,7 @@ DirectGroup::DirectGroup(const DirectLight& direct, std::span<const std::uint32_
       tallies_(list.size()),
       grouped_(list.size(), scene().light_groups.size()),
       grouped_difference_(grouped_),
+      grouped_sharp_(grouped_),
       grouped_transmitted_{grouped_, grouped_} {
   for (std::uint32_t i = 0; i < list.size(); ++i)
     if (d_.texels_.visible[list[i]] > 0) add_points(i);
@@ -28,6 +29,7 @@ void DirectGroup::run(DirectSums& sums) {
   sample_polygon_lights();
   for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
     sample_punctual_light(l);
+    if (d_.sharp_ && d_.sharp_->is_sharp[l]) finish_sharp(l);
     finish_light(Vec3(1), scene().lights[l].light_group, hours_of(scene().lights[l]), per_half_);
   }
   const VirtualLights& mirrored = d_.t_.lights.mirrored();
@@ -53,9 +55,11 @@ void DirectGroup::run(DirectSums& sums) {
     sums.variance[list_[i]] = tallies_[i].variance;
     sums.uneven[list_[i]] = 0.25f * tallies_[i].uneven * tallies_[i].uneven;
     sums.per_half[list_[i]] = per_half_;
+    sums.sharp[list_[i]] = tallies_[i].sharp;
     if (!sums.moments.empty()) sums.moments[list_[i]] = tallies_[i].moments;
     std::ranges::copy(grouped_.of(i), sums.grouped.of(list_[i]).begin());
     std::ranges::copy(grouped_difference_.of(i), sums.grouped_difference.of(list_[i]).begin());
+    std::ranges::copy(grouped_sharp_.of(i), sums.grouped_sharp.of(list_[i]).begin());
   }
 }
 
@@ -168,6 +172,7 @@ void DirectGroup::add_polygon_sample(const PolygonView& view, const Receiver& re
 void DirectGroup::sample_punctual_light(std::uint32_t l) {
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
+    if (d_.part_ == SharpPart::kLeftOut && is_sharp(l, point.texel)) continue;
     Sampler sampler(d_.seed_ + seeds::kSharpLight + l, stream_of(list_[point.texel], point.half), point.k);
     const LightSample s = d_.t_.lights.sample_light(l, point.sample_point.origin, sampler.next2());
     const Vec3 value = s.estimate * incidence(point.sample_point.receiver(), s.direction, true);
@@ -264,6 +269,20 @@ void DirectGroup::trace() {
   }
   shadow_rays_.clear();
   rays_to_trace_.clear();
+}
+
+// Shadows' edges are drawn by pixel: their noise here is nobody's.
+void DirectGroup::finish_sharp(std::uint32_t l) {
+  trace();
+  for (std::uint32_t i = 0; i < tallies_.size(); ++i) {
+    if (!is_sharp(l, i)) continue;
+    Tally& t = tallies_[i];
+    const Vec3 value = (t.transmitted[0] + t.transmitted[1]) / static_cast<float>(kHalves * per_half_);
+    t.total += value, t.sharp += value;
+    const std::uint32_t group = scene().lights[l].light_group;
+    if (!grouped_.empty()) grouped_.of(i)[group] += value, grouped_sharp_.of(i)[group] += value;
+    clear_light(t);
+  }
 }
 
 void DirectGroup::finish_light(const Vec3& radiance, std::uint32_t group, float hours, std::uint32_t per_half) {

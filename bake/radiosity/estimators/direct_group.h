@@ -47,6 +47,7 @@ class DirectGroup {
     Vec4 moments{0};
     Vec3 difference{0};  // half 0 minus half 1
     Vec3 uneven{0};      // half 0 minus half 1 of unoccluded light, all lights together
+    Vec3 sharp{0};       // of total: what is computed by pixel
   };
 
   std::uint64_t stream_of(std::uint32_t texel, int half) const;
@@ -74,6 +75,11 @@ class DirectGroup {
   // over all samples, since its bias falls with their number. A half without any weight, the light being mostly below
   // its points' horizon, takes the ratio of both.
   void finish_light(const Vec3& radiance, std::uint32_t group, float hours, std::uint32_t per_half);
+  // The same of a light that is computed by pixel at some texels.
+  void finish_sharp(std::uint32_t l);
+  bool is_sharp(std::uint32_t l, std::uint32_t texel_of_list) const {
+    return d_.sharp_ && d_.sharp_->apart(l, d_.texels_.chart[list_[texel_of_list]]);
+  }
   // The factor on noise variance of a sun of a day. Each hour is shown without the others, so its noise is relative to
   // its own light: the number of hours, if all were alike.
   float hours_of(const Light& light) const { return light.hour >= 0 ? static_cast<float>(scene().day.lit()) : 1.0f; }
@@ -97,8 +103,8 @@ class DirectGroup {
   bool directional_;
   std::vector<Point> points_;
   std::vector<Tally> tallies_;
-  GroupedLight grouped_, grouped_difference_;              // by texel of the list, of all lights so far
-  std::array<GroupedLight, kHalves> grouped_transmitted_;  // by half, of the randomly chosen lights now
+  GroupedLight grouped_, grouped_difference_, grouped_sharp_;  // by texel of the list, of all lights so far
+  std::array<GroupedLight, kHalves> grouped_transmitted_;      // by half, of the randomly chosen lights now
   std::vector<Ray> rays_to_trace_;
   std::vector<ShadowRay> shadow_rays_;
   std::vector<Vec3> transmittances_;

@@ -13,8 +13,8 @@ constexpr std::size_t kTexelsATask = 64;   // texels whose shadow rays to one li
 }  // namespace
 
 DirectLight::DirectLight(const Transport& transport, const Texels& texels, const ExtraSamplePoints& sample_points,
-                         std::uint64_t seed)
-    : t_(transport), texels_(texels), sample_points_(sample_points), seed_(seed) {
+                         std::uint64_t seed, const SharpCharts* sharp, SharpPart part)
+    : t_(transport), texels_(texels), sample_points_(sample_points), seed_(seed), sharp_(sharp), part_(part) {
   const Scene& scene = transport.accel.scene();
   polygons_ = find_polygon_lights(scene);
   closed_form_ = all_emission_is_plain(scene) && polygons_.size() <= kMaxPolygons;
@@ -31,7 +31,11 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
   const std::size_t punctual = many_punctual_ ? DirectGroup::kPicks : t_.accel.scene().lights.size();
   const std::size_t frosted = 2 * DirectGroup::kFrosted * std::min<std::size_t>(16, t_.lights.frosted().size());
   loop.rays = static_cast<double>(kTexelsATask * kHalves * (polygons_.size() + punctual + frosted)) * per_half;
-  loop.inputs = [&](std::size_t g, Archive& key) { key(part(g), per_half, !sums.moments.empty(), texels_.eyes); };
+  loop.inputs = [&](std::size_t g, Archive& key) {
+    std::vector<char> apart;
+    for (const std::uint32_t t : part(g)) apart.push_back(sharp_ && sharp_->charts[texels_.chart[t]].flat);
+    key(part(g), per_half, !sums.moments.empty(), texels_.eyes, apart, part_);
+  };
   loop.compute = [&](std::size_t g) {
     DirectGroup group(*this, part(g), per_half, !sums.moments.empty());
     group.run(sums);
@@ -39,7 +43,7 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
   };
   loop.results = [&](std::size_t g, Archive& archive) {
     for (const std::uint32_t t : part(g)) {
-      archive(sums.value[t], sums.difference[t], sums.variance[t], sums.uneven[t], sums.per_half[t]);
+      archive(sums.value[t], sums.difference[t], sums.variance[t], sums.uneven[t], sums.per_half[t], sums.sharp[t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
       if (!sums.grouped.empty()) archive(sums.grouped.of(t), sums.grouped_difference.of(t));
     }

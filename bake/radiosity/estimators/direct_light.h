@@ -4,6 +4,7 @@
 #include "bake/radiosity/texels/extra_sample_points.h"
 #include "bake/radiosity/texels/grouped_light.h"
 #include "bake/radiosity/texels/neighbours.h"
+#include "bake/radiosity/texels/sharp_charts.h"
 
 namespace oriel {
 
@@ -16,6 +17,8 @@ struct DirectSums {
   std::vector<std::uint32_t> per_half;  // samples of each half and light
   std::vector<Vec4> moments;            // of luminance over the sphere (moments.h); empty unless directional
   GroupedLight grouped, grouped_difference;  // value and difference by light group
+  std::vector<Vec3> sharp;                   // of value: what is computed by pixel; no other sum has it
+  GroupedLight grouped_sharp;                // likewise, of grouped
 
   DirectSums(std::size_t texels, bool directional, std::size_t groups = 0)
       : value(texels),
@@ -25,18 +28,21 @@ struct DirectSums {
         per_half(texels),
         moments(directional ? texels : 0),
         grouped(texels, groups),
-        grouped_difference(texels, groups) {}
+        grouped_difference(texels, groups),
+        sharp(texels),
+        grouped_sharp(texels, groups) {}
 
-  // Both halves by light group.
+  // Both halves by light group, without what is computed by pixel.
   std::array<GroupedLight, kHalves> grouped_halves() const {
     std::array<GroupedLight, kHalves> halves{grouped, grouped};
+    for (GroupedLight& half : halves) half.add(grouped_sharp, -1);
     halves[0].add(grouped_difference, 0.5f), halves[1].add(grouped_difference, -0.5f);
     return halves;
   }
 
   void copy(std::size_t i, const DirectSums& from, std::size_t k) {
     value[i] = from.value[k], difference[i] = from.difference[k];
-    variance[i] = from.variance[k], uneven[i] = from.uneven[k];
+    variance[i] = from.variance[k], uneven[i] = from.uneven[k], sharp[i] = from.sharp[k];
     if (!from.moments.empty()) moments[i] = from.moments[k];
     per_half[i] = from.per_half[k];
   }
@@ -50,10 +56,14 @@ struct DirectSums {
 void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
                     std::vector<std::uint32_t>& list);
 
+// What becomes of light that is computed by pixel: DirectSums::sharp has it apart, or it is not estimated.
+enum class SharpPart : std::uint8_t { kApart, kLeftOut };
+
 class DirectLight {
  public:
+  // sharp: null: no light is computed by pixel.
   DirectLight(const Transport& transport, const Texels& texels, const ExtraSamplePoints& sample_points,
-              std::uint64_t seed);
+              std::uint64_t seed, const SharpCharts* sharp = nullptr, SharpPart part = SharpPart::kApart);
 
   // True if every emitting surface has a closed form. False: surfaces are left to light sampling (LightSet), because of
   // textured emitters, or of too many polygons to visit one by one.
@@ -74,6 +84,8 @@ class DirectLight {
   const Texels& texels_;
   const ExtraSamplePoints& sample_points_;
   std::uint64_t seed_;
+  const SharpCharts* sharp_;
+  SharpPart part_;
   std::vector<PolygonLight> polygons_;
   bool many_punctual_ = false;  // light sampling chooses among them
   bool closed_form_ = true;

@@ -141,8 +141,9 @@ Halves halves_of(const HalfSums& sums, Context& context) {
 Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered) {
   Halves halves{{sums.value, sums.value}, std::vector<Vec3>(sums.value.size()), gathered};
   for (std::size_t i = 0; i < sums.value.size(); ++i) {
-    halves.light[0][i] += 0.5f * sums.difference[i];
-    halves.light[1][i] -= 0.5f * sums.difference[i];
+    halves.additional[i] += sums.sharp[i];
+    halves.light[0][i] += 0.5f * sums.difference[i] - sums.sharp[i];
+    halves.light[1][i] -= 0.5f * sums.difference[i] + sums.sharp[i];
   }
   return halves;
 }

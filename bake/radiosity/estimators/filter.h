@@ -27,7 +27,7 @@ struct Halves {
   bool steps = true;
 };
 Halves halves_of(const HalfSums& sums, Context& context);
-// gathered: reflected light by texel, lux; errors are relative to the sum of both.
+// Without what is computed by pixel. gathered: reflected light by texel, lux; errors are relative to all light.
 Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered);
 
 // Filters light by conservative diffusion over the graph: a texel gains as much as its neighbour loses, so energy does

@@ -7,6 +7,7 @@
 #include "bake/atlas/texel_map.h"
 #include "bake/trace/path.h"
 #include "formats/assets/lightmap.h"
+#include "formats/assets/sharp_light.h"
 
 namespace oriel {
 
@@ -72,6 +73,8 @@ struct RadiosityOptions {
                              // up to 32) where light changes within them (cells.h)
   bool stitch = true;        // make light continuous over the seams of the lightmap
   bool directional = false;  // fill LightmapPage::direction
+  bool sharp = false;        // cached: light of points, spots and suns on flat charts is computed by pixel
+                             // (formats/assets/sharp_light.h); false: all is in texels and their cells
 };
 
 // Seams of the lightmap (seams.h) before and after stitching. Steps are luminance differences of bilinear filtering on
@@ -154,6 +157,8 @@ struct Radiosity {
   // Visible fraction of each covered texel, by page and index into TexelMapPage::texel: neither inside other geometry
   // nor behind a wall on the texel (TexelPart). All 1 with Hidden::kBlack, which has it in the light.
   std::vector<std::vector<float>> visible;
+  // While pages hold light without it: the sharp light of texels, by page. Later LightmapPage::sharp has it.
+  std::vector<LightmapPage> sharp{};
   // Texels, by page, whose light is that of near ones, for want of time.
   std::vector<std::vector<std::uint32_t>> assumed{};
   // True for cells (LightmapPage::cell) whose light continues across a stitched seam, by page and y * width + x. Empty
@@ -162,6 +167,7 @@ struct Radiosity {
   // Irradiance and details by light group (Scene::light_groups) and page; states and cells are those of `pages`. They
   // sum to the light of `pages`, apart from rounding. Empty without groups, or if the estimator does not separate them.
   std::vector<std::vector<LightmapPage>> groups{};
+  SharpLight sharp_light;  // with RadiosityOptions::sharp
   RadiosityReport report;
 };
 

@@ -12,7 +12,7 @@ constexpr std::size_t kTile = 64;  // texels, as FinalGather groups them
 constexpr double kDarkest = 0.01;  // of the mean: the change of darker texels is relative to it
 
 void fields(Archive& archive, DirectSums& s) {
-  archive(s.value, s.difference, s.variance, s.uneven, s.per_half, s.moments);
+  archive(s.value, s.difference, s.variance, s.uneven, s.per_half, s.moments, s.sharp);
 }
 void fields(Archive& archive, HalfSums& s) {
   archive(s.sum, s.slope, s.samples, s.moments);
@@ -28,7 +28,7 @@ bool is_whole(const PreviousLight& k, bool directional) {
   const std::size_t n = k.count(), moments = directional ? n : 0;
   const auto has = [&](const auto&... all) { return ((all.size() == n) && ...); };
   return has(k.x, k.y, k.chart, k.first_pass, k.unrefined_direct, k.coarse, k.direct.value, k.direct.difference,
-             k.direct.variance, k.direct.uneven, k.direct.per_half, k.gathered.samples) &&
+             k.direct.variance, k.direct.uneven, k.direct.per_half, k.direct.sharp, k.gathered.samples) &&
          has(k.gathered.sum[0], k.gathered.sum[1], k.gathered.slope[0], k.gathered.slope[1]) &&
          k.direct.moments.size() == moments && k.gathered.moments.size() == moments;
 }

@@ -11,7 +11,8 @@ namespace oriel {
 // The cached estimator's results by texel.
 struct TexelEstimate {
   const Texels& texels;
-  const Estimate &direct, &gathered;
+  const Estimate &direct, &gathered;                          // without what is computed by pixel
+  const std::vector<Vec3>& sharp;                             // that
   const std::vector<Vec4>&direct_moments, &gathered_moments;  // empty unless pages have directions
   const Reuse* reuse = nullptr;                               // light of the previous bake; may be null
 };

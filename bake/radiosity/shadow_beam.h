@@ -1,0 +1,56 @@
+// What may stand between a parallelogram and a lamp.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bake/scene/box_tree.h"
+
+namespace oriel {
+
+using BeamTriangle = std::array<DVec3, 3>;
+
+// The rays from a parallelogram to a point, or to the disk of a sun. Answers err on the side of what may be in the way.
+class ShadowBeam {
+ public:
+  // corners: in order around; normal: unit, where the parallelogram is lit from. level: heights up to which things lie
+  // in its plane, m.
+  ShadowBeam(const Light& light, const std::array<DVec3, 4>& corners, const DVec3& normal, double level);
+
+  bool faces_lamp() const { return faces_; }
+  bool may_meet(const TreeBox& box) const;
+  bool may_meet(const BeamTriangle& triangle) const;
+  bool may_meet(const DVec3& a, const DVec3& b) const;  // an edge
+  // Whether no ray passes by the triangle.
+  bool is_blocked_by(const BeamTriangle& triangle) const;
+  // Whether the triangle passes through the parallelogram's plane.
+  bool is_cut_by(const BeamTriangle& triangle) const;
+  // Whether its front faces the lamp, seen from the middle.
+  bool is_front(const BeamTriangle& triangle) const;
+
+ private:
+  // A plane through two points and the lamp, and how far a place is beyond it, m.
+  struct Side {
+    DVec3 from{0}, outwards{0};
+    double beyond(const DVec3& p) const { return glm::dot(outwards, p - from); }
+  };
+  Side side_through(const DVec3& a, const DVec3& b, const DVec3& inside) const;
+  double height(const DVec3& p) const { return glm::dot(normal_, p - corners_[0]); }
+  // How far a sun's disk spreads the rays at that distance from the parallelogram, m.
+  double spread(const DVec3& p) const { return tangent_ * (glm::length(p - middle_) + reach_); }
+  template <class Points>
+  bool beyond_a_side(const Points& points) const;
+  template <class Points>
+  bool beyond_in_height(const Points& points, bool in_plane) const;
+  // Whether the parallelogram lies on the far side of the plane through an edge and the lamp, all of it.
+  bool is_beyond_edge(const DVec3& a, const DVec3& b, const DVec3& inside) const;
+
+  std::array<DVec3, 4> corners_;
+  DVec3 normal_, middle_;
+  DVec3 lamp_;  // its place, or of a sun the way to it
+  bool sun_ = false, faces_ = false;
+  double tangent_ = 0, level_ = 0, reach_ = 0, top_ = 0;  // top_: the lamp's height
+  std::array<Side, 4> sides_;
+};
+
+}  // namespace oriel

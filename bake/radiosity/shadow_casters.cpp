@@ -1,0 +1,118 @@
+#include "bake/radiosity/shadow_casters.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+#include "bake/scene/shade.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::size_t kLeaf = 4;  // triangles
+
+// An edge by its ends' places, so that vertices with several normals are one.
+struct PlacedEdge {
+  std::array<Vec3, 2> ends;
+  std::uint32_t triangle = 0;
+  std::uint8_t edge = 0;
+  bool turned = false;  // of the triangle's own direction
+
+  auto key() const {
+    std::array<std::uint32_t, 6> bits;
+    std::memcpy(bits.data(), ends.data(), sizeof bits);
+    return bits;
+  }
+};
+
+bool comes_before(const Vec3& a, const Vec3& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+}  // namespace
+
+ShadowCasters::ShadowCasters(const Scene& scene) {
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const UVec3& v = scene.triangles[t];
+    triangles_.push_back({DVec3(scene.positions[v.x]), DVec3(scene.positions[v.y]), DVec3(scene.positions[v.z])});
+    const SceneMaterial& material = scene.material_of(t);
+    filters_.push_back(may_transmit(material));
+    const bool doubled = !scene.twin.empty() && scene.twin[t] < t;
+    if (!material.unlit && !doubled) order_.push_back(t);
+  }
+  join_edges(scene);
+  if (!order_.empty()) add_node(0, order_.size());
+}
+
+void ShadowCasters::join_edges(const Scene& scene) {
+  std::vector<PlacedEdge> edges;
+  for (const std::uint32_t t : order_)
+    for (std::uint8_t k = 0; k < 3; ++k) {
+      const Vec3 a = scene.positions[scene.triangles[t][k]] + 0.0f,
+                 b = scene.positions[scene.triangles[t][(k + 1) % 3]] + 0.0f;
+      const bool turned = comes_before(b, a);
+      edges.push_back({turned ? std::array{b, a} : std::array{a, b}, t, k, turned});
+    }
+  std::ranges::sort(edges, [](const PlacedEdge& a, const PlacedEdge& b) {
+    return std::tuple(a.key(), a.triangle, a.edge) < std::tuple(b.key(), b.triangle, b.edge);
+  });
+  beyond_.assign(3 * triangles_.size(), ~0u), alike_.resize(3 * triangles_.size());
+  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
+    while (next < edges.size() && edges[next].key() == edges[i].key()) ++next;
+    if (next - i != 2) continue;
+    const PlacedEdge &a = edges[i], &b = edges[i + 1];
+    beyond_[3 * std::size_t{a.triangle} + a.edge] = b.triangle,
+                                          beyond_[3 * std::size_t{b.triangle} + b.edge] = a.triangle;
+    alike_[3 * std::size_t{a.triangle} + a.edge] = alike_[3 * std::size_t{b.triangle} + b.edge] = a.turned != b.turned;
+  }
+}
+
+// Halves by the longest side of the boxes' middles.
+void ShadowCasters::add_node(std::size_t first, std::size_t count) {
+  const std::size_t at = nodes_.size();
+  nodes_.push_back({{}, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)});
+  TreeBox middles;
+  const auto middle = [&](std::uint32_t t) { return triangles_[t][0] + triangles_[t][1] + triangles_[t][2]; };
+  const auto own = std::span(order_).subspan(first, count);
+  for (const std::uint32_t t : own) {
+    for (const DVec3& corner : triangles_[t]) nodes_[at].box.add(corner);
+    middles.add(middle(t));
+  }
+  if (count <= kLeaf) return;
+  const DVec3 size = middles.upper - middles.lower;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  std::ranges::nth_element(
+      own, own.begin() + static_cast<std::ptrdiff_t>(count / 2),
+      [&](std::uint32_t a, std::uint32_t b) { return std::pair(middle(a)[axis], a) < std::pair(middle(b)[axis], b); });
+  nodes_[at].count = 0;
+  add_node(first, count / 2);
+  nodes_[at].first = static_cast<std::uint32_t>(nodes_.size());
+  add_node(first + count / 2, count - count / 2);
+}
+
+std::vector<std::uint32_t> ShadowCasters::in(const ShadowBeam& beam) const {
+  std::vector<std::uint32_t> found, open;
+  if (!nodes_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const std::uint32_t at = open.back();
+    open.pop_back();
+    const Node& node = nodes_[at];
+    if (!beam.may_meet(node.box)) continue;
+    if (node.count == 0) {
+      open.push_back(node.first), open.push_back(at + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (beam.may_meet(triangles_[order_[i]])) found.push_back(order_[i]);
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+bool ShadowCasters::ends_shadow(std::uint32_t t, std::size_t k, const ShadowBeam& beam) const {
+  const std::uint32_t other = beyond_[3 * std::size_t{t} + k];
+  if (other == ~0u || filters_[t] != filters_[other]) return true;
+  return (beam.is_front(triangles_[t]) == beam.is_front(triangles_[other])) != alike_[3 * std::size_t{t} + k];
+}
+
+}  // namespace oriel

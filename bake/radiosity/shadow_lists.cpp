@@ -1,0 +1,388 @@
+#include "bake/radiosity/shadow_lists.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <unordered_map>
+
+#include "bake/jobs/parallel.h"
+#include "bake/radiosity/shadow_casters.h"
+#include "bake/trace/punctual.h"
+#include "formats/core/half.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kTile = 16;               // texels a side, that are looked at together first
+constexpr std::size_t kListed = 16;               // triangles for one lamp: with more, quarters have fewer each
+constexpr std::size_t kListedAtLast = 64;         // likewise where there are no more quarters
+constexpr int kFilterSplits = 3;                  // where cut-outs or the rims of panes need rays: eighths of a texel
+constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
+constexpr double kLevel = 0x1p-20;                // of the scene's radius: what lies in one plane, by rounding
+
+// A square of texels or of a part of one, in texels of the chart's page.
+struct Square {
+  DVec2 lower{0};
+  double side = 1;
+  Square quarter(std::uint32_t k) const { return {lower + 0.5 * side * DVec2(k & 1u, k >> 1u), 0.5 * side}; }
+};
+
+// What reaches a square, before it is encoded: a leaf's words, without numbers of triangles in SharpLight, or quarters.
+struct Shine {
+  std::uint32_t lamp = 0;
+  Vec3 tint{1};
+  std::vector<std::uint32_t> casters;  // of the scene, with the bits of their edges beside
+  std::vector<std::uint8_t> edges;
+};
+struct Record {
+  std::vector<Shine> shines;
+  std::array<std::unique_ptr<Record>, 4> quarters;
+  bool is_split() const { return quarters[0] != nullptr; }
+};
+
+// A lamp whose shadows in a square are not settled: what may stand in its way.
+struct Unsettled {
+  std::uint32_t lamp = 0;
+  std::vector<std::uint32_t> casters;
+};
+
+struct TileOfChart {
+  std::uint32_t chart = 0;
+  UVec2 lower{0};
+};
+
+// The records of a tile's texels, by y * kTile + x; several may be one.
+using TileRecords = std::vector<std::shared_ptr<const Record>>;
+
+class TileLister {
+ public:
+  TileLister(const LightmapScene& scene, const ShadowCasters& casters, std::uint32_t chart_number,
+             const std::vector<std::uint32_t>& chart_at, std::uint64_t& rays)
+      : scene_(scene),
+        casters_(casters),
+        chart_number_(chart_number),
+        chart_(scene.sharp->charts[chart_number]),
+        chart_at_(chart_at),
+        level_(kLevel * double{scene.transport.accel.scene().radius()}),
+        rays_(rays) {}
+
+  TileRecords list(const UVec2& lower) {
+    TileRecords records(std::size_t{kTile} * kTile);
+    const Square tile{DVec2(lower), kTile};
+    std::vector<Unsettled> lamps;
+    for (std::uint32_t lamp = 0; lamp < scene_.sharp->lights.size(); ++lamp) {
+      const ShadowBeam beam = beam_to(lamp, tile);
+      if (!beam.faces_lamp() || is_beyond_cone(lamp, tile)) continue;
+      lamps.push_back({lamp, casters_.in(beam)});
+      std::erase_if(lamps.back().casters, [&](std::uint32_t t) { return scene_.atlas.chart[t] == chart_number_; });
+    }
+    fill(tile, lower, std::move(lamps), {}, records);
+    return records;
+  }
+
+ private:
+  enum class Light { kNone, kSettled, kOpen };
+  struct Look {
+    Light light = Light::kNone;
+    Shine shine;
+    std::vector<std::uint32_t> casters;  // kOpen
+  };
+
+  const oriel::Light& light_of(std::uint32_t lamp) const {
+    return scene_.transport.accel.scene().lights[scene_.sharp->lights[lamp]];
+  }
+
+  ShadowBeam beam_to(std::uint32_t lamp, const Square& s) const {
+    const DVec2 &a = s.lower, b = s.lower + s.side;
+    return {light_of(lamp),
+            {chart_.at(a), chart_.at({b.x, a.y}), chart_.at(b), chart_.at({a.x, b.y})},
+            chart_.normal,
+            level_};
+  }
+
+  bool is_beyond_cone(std::uint32_t lamp, const Square& s) const {
+    const oriel::Light& light = light_of(lamp);
+    if (light.type != LightType::kSpot) return false;
+    const DVec3 to = chart_.at(s.lower + 0.5 * s.side) - DVec3(light.position);
+    const double reach = 0.5 * s.side * (glm::length(chart_.along_x) + glm::length(chart_.along_y));
+    const double distance = glm::length(to);
+    if (distance <= reach) return false;
+    const double off = std::acos(std::clamp(glm::dot(to, DVec3(light.direction)) / distance, -1.0, 1.0));
+    return off - std::asin(reach / distance) > double{light.outer_cone_rad};
+  }
+
+  bool is_covered(const UVec2& lower, std::uint32_t side) const {
+    const std::uint32_t width = scene_.map[chart_.page].width, height = scene_.map[chart_.page].height;
+    for (std::uint32_t y = lower.y; y < std::min(lower.y + side, height); ++y)
+      for (std::uint32_t x = lower.x; x < std::min(lower.x + side, width); ++x)
+        if (chart_at_[std::size_t{y} * width + x] == chart_number_) return true;
+    return false;
+  }
+
+  // Settles what it can in a square of whole texels and goes on in its quarters.
+  void fill(const Square& square, const UVec2& first, std::vector<Unsettled> lamps, std::vector<Shine> settled,
+            TileRecords& records) {
+    const auto side = static_cast<std::uint32_t>(square.side);
+    const UVec2 lower(square.lower);
+    if (!is_covered(lower, side)) return;
+    if (side == 1) {
+      auto record = std::make_shared<Record>(part(square, 0, std::move(lamps), std::move(settled)));
+      if (record->is_split() || !record->shines.empty())
+        records[std::size_t{lower.y - first.y} * kTile + lower.x - first.x] = std::move(record);
+      return;
+    }
+    lamps = settle(square, std::move(lamps), settled, 0);
+    if (lamps.empty()) {
+      std::ranges::sort(settled, {}, &Shine::lamp);
+      const auto record = settled.empty() ? nullptr : std::make_shared<Record>(Record{std::move(settled), {}});
+      for (std::uint32_t y = 0; y < side; ++y)
+        for (std::uint32_t x = 0; x < side; ++x)
+          records[std::size_t{lower.y - first.y + y} * kTile + lower.x - first.x + x] = record;
+      return;
+    }
+    for (std::uint32_t k = 0; k < 4; ++k) fill(square.quarter(k), first, lamps, settled, records);
+  }
+
+  Record part(const Square& square, int splits, std::vector<Unsettled> lamps, std::vector<Shine> settled) {
+    lamps = settle(square, std::move(lamps), settled, splits + 1);
+    Record record;
+    if (lamps.empty()) {
+      std::ranges::sort(settled, {}, &Shine::lamp);
+      record.shines = std::move(settled);
+      return record;
+    }
+    for (std::uint32_t k = 0; k < 4; ++k)
+      record.quarters[k] = std::make_unique<Record>(part(square.quarter(k), splits + 1, lamps, settled));
+    return record;
+  }
+
+  // Moves lamps that are settled to `settled`; those that are dark are gone. splits: 0 for whole texels; else one more
+  // than a texel's splits so far.
+  std::vector<Unsettled> settle(const Square& square, std::vector<Unsettled> lamps, std::vector<Shine>& settled,
+                                int splits) {
+    std::vector<Unsettled> open;
+    for (const Unsettled& lamp : lamps) {
+      Look found = look(square, lamp, splits);
+      if (found.light == Light::kSettled) settled.push_back(std::move(found.shine));
+      if (found.light == Light::kOpen) open.push_back({lamp.lamp, std::move(found.casters)});
+    }
+    return open;
+  }
+
+  Look look(const Square& square, const Unsettled& lamp, int splits) {
+    const ShadowBeam beam = beam_to(lamp.lamp, square);
+    if (is_beyond_cone(lamp.lamp, square)) return {};
+    Shine shine{lamp.lamp, Vec3(1), {}, {}};
+    for (const std::uint32_t t : lamp.casters)
+      if (beam.may_meet(casters_.triangle(t))) shine.casters.push_back(t);
+    if (shine.casters.empty()) return {Light::kSettled, std::move(shine), {}};
+    bool edges = false, edges_of_filters = false, filters = false;
+    for (const std::uint32_t t : shine.casters) {
+      const BeamTriangle& triangle = casters_.triangle(t);
+      if (!casters_.is_filter(t) && beam.is_blocked_by(triangle)) return {};
+      std::uint8_t bits = 0;
+      bool near = beam.is_cut_by(triangle);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!casters_.ends_shadow(t, k, beam)) continue;
+        bits |= static_cast<std::uint8_t>(1u << k);
+        near = near || beam.may_meet(triangle[k], triangle[(k + 1) % 3]);
+      }
+      shine.edges.push_back(bits);
+      edges = edges || near;
+      filters = filters || casters_.is_filter(t);
+      edges_of_filters = edges_of_filters || (near && casters_.is_filter(t));
+    }
+    if (!edges) {
+      const Rays few = rays_to(square, lamp.lamp, kFewRays);
+      if (few.even) return arrived(lamp.lamp, few.mean);
+      edges = edges_of_filters = true;
+    }
+    const bool last = splits > kMostSharpSplits || (edges_of_filters && splits > kFilterSplits);
+    if (splits > 0 && !edges_of_filters && shine.casters.size() <= (last ? kListedAtLast : kListed)) {
+      if (filters) tint_by_filters(square, shine);
+      if (filters && shine.tint == Vec3(0)) return {};
+      return {Light::kSettled, std::move(shine), {}};
+    }
+    if (last) return arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean);
+    return {Light::kOpen, {}, std::move(shine.casters)};
+  }
+
+  // Panes that reach beyond the square tint all of its light alike; what else is in the way is listed.
+  void tint_by_filters(const Square& square, Shine& shine) {
+    shine.tint = rays_to(square, shine.lamp, kRays).most;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < shine.casters.size(); ++i)
+      if (!casters_.is_filter(shine.casters[i]))
+        shine.casters[kept] = shine.casters[i], shine.edges[kept++] = shine.edges[i];
+    shine.casters.resize(kept), shine.edges.resize(kept);
+  }
+
+  static Look arrived(std::uint32_t lamp, const Vec3& share) {
+    if (!(max_component(share) > 0)) return {};
+    return {Light::kSettled, {lamp, share, {}, {}}, {}};
+  }
+
+  // The share of a lamp's light that arrives in a square, by so many rays a side.
+  struct Rays {
+    Vec3 mean{0}, most{0};
+    bool even = true;  // all pass or none does
+  };
+  Rays rays_to(const Square& square, std::uint32_t lamp, std::uint32_t side) {
+    const oriel::Light& light = light_of(lamp);
+    std::vector<Ray> rays;
+    for (std::uint32_t k = 0; k < side * side; ++k) {
+      const DVec2 within = (DVec2(k % side, k / side) + 0.5) / double(side);
+      // A sun's disk is sampled by the same points, in another order.
+      const Vec2 of_disk((static_cast<float>(k / side) + 0.5f) / static_cast<float>(side),
+                         (static_cast<float>((k * 5 + 2) % (side * side) / side) + 0.5f) / static_cast<float>(side));
+      Ray ray;
+      ray.origin = Vec3(chart_.at(square.lower + square.side * within) + 8 * level_ * chart_.normal);
+      ray.past_frosted = false;
+      if (light.type == LightType::kDirectional) {
+        ray.direction = light.angular_radius_rad > 0 ? sample_cone(-light.direction, light.angular_radius_rad, of_disk)
+                                                     : -light.direction;
+      } else {
+        const Vec3 to = light.position - ray.origin;
+        ray.max_distance = glm::length(to);
+        ray.direction = to / ray.max_distance;
+      }
+      rays.push_back(ray);
+    }
+    std::vector<Vec3> passed(rays.size());
+    scene_.transport.accel.transmittance(rays, passed);
+    rays_ += rays.size();
+    Rays out;
+    for (const Vec3& light_passed : passed) {
+      out.mean += light_passed / static_cast<float>(rays.size());
+      out.most = glm::max(out.most, light_passed);
+      out.even = out.even && (max_component(light_passed) > 0) == (max_component(passed[0]) > 0);
+    }
+    return out;
+  }
+
+  const LightmapScene& scene_;
+  const ShadowCasters& casters_;
+  std::uint32_t chart_number_;
+  const FlatChart& chart_;
+  const std::vector<std::uint32_t>& chart_at_;  // of the page, by texel
+  double level_;
+  std::uint64_t& rays_;
+};
+
+// Numbers triangles as they come, and keeps records that are equal once.
+class SharpWriter {
+ public:
+  SharpWriter(const ShadowCasters& casters, SharpLight& light) : casters_(casters), light_(light) {
+    light_.words.push_back(0);  // place 0 stands for none
+  }
+
+  std::uint32_t place_of(const Record& record) {
+    std::vector<std::uint32_t> words;
+    if (record.is_split()) {
+      words.push_back(kSharpSplit);
+      for (const auto& quarter : record.quarters) words.push_back(place_of(*quarter));
+    } else {
+      words.push_back(static_cast<std::uint32_t>(record.shines.size()));
+      for (const Shine& shine : record.shines) add(shine, words);
+    }
+    const auto [at, anew] = places_.try_emplace(words, static_cast<std::uint32_t>(light_.words.size()));
+    if (anew) light_.words.insert(light_.words.end(), words.begin(), words.end());
+    return at->second;
+  }
+
+ private:
+  void add(const Shine& shine, std::vector<std::uint32_t>& words) {
+    const bool tinted = shine.tint != Vec3(1);
+    words.push_back(SharpShine{shine.lamp, tinted, static_cast<std::uint32_t>(shine.casters.size())}.code());
+    if (tinted) words.push_back(rgb9e5_from_rgb(shine.tint));
+    for (std::size_t i = 0; i < shine.casters.size(); ++i)
+      words.push_back(number_of(shine.casters[i]) | std::uint32_t{shine.edges[i]} << kSharpEdgeShift);
+  }
+
+  std::uint32_t number_of(std::uint32_t caster) {
+    const auto [at, anew] = numbers_.try_emplace(caster, static_cast<std::uint32_t>(light_.triangles.size()));
+    const BeamTriangle& t = casters_.triangle(caster);
+    if (anew) light_.triangles.push_back({Vec3(t[0]), Vec3(t[1]), Vec3(t[2])});
+    return at->second;
+  }
+
+  const ShadowCasters& casters_;
+  SharpLight& light_;
+  std::map<std::vector<std::uint32_t>, std::uint32_t> places_;
+  std::unordered_map<std::uint32_t, std::uint32_t> numbers_;
+};
+
+SharpLamp lamp_of(const Scene& scene, std::uint32_t index) {
+  const Light& light = scene.lights[index];
+  SharpLamp lamp{.sun = light.type == LightType::kDirectional,
+                 .position = light.position,
+                 .direction = light.direction,
+                 .intensity = light.intensity,
+                 .angular_radius_rad = light.angular_radius_rad};
+  if (light.type == LightType::kSpot) {
+    lamp.cos_outer = std::cos(light.outer_cone_rad);
+    lamp.inverse_falloff = 1 / std::max(kSharpestCone, std::cos(light.inner_cone_rad) - lamp.cos_outer);
+  }
+  if (!scene.light_groups.empty()) lamp.light_group = light.light_group;
+  return lamp;
+}
+
+// By page and texel: the chart of its first triangle.
+std::vector<std::vector<std::uint32_t>> charts_at(const LightmapScene& scene) {
+  std::vector<std::vector<std::uint32_t>> at;
+  for (const TexelMapPage& page : scene.map) {
+    at.emplace_back(std::size_t{page.width} * page.height, ~0u);
+    for (std::size_t i = 0; i < page.texel.size(); ++i)
+      at.back()[page.texel[i]] = scene.atlas.chart[page.fragments[page.first[i]].triangle];
+  }
+  return at;
+}
+
+std::vector<TileOfChart> tiles_of(const SharpCharts& sharp) {
+  std::vector<TileOfChart> tiles;
+  for (std::uint32_t c = 0; c < sharp.charts.size(); ++c)
+    for (std::uint32_t y = sharp.charts[c].lower.y; sharp.charts[c].flat && y < sharp.charts[c].upper.y; y += kTile)
+      for (std::uint32_t x = sharp.charts[c].lower.x; x < sharp.charts[c].upper.x; x += kTile)
+        tiles.push_back({c, {x, y}});
+  return tiles;
+}
+
+}  // namespace
+
+Result<ShadowLists> list_shadows(const LightmapScene& scene, const Stage& stage) {
+  const Scene& of = scene.transport.accel.scene();
+  const SharpCharts& sharp = *scene.sharp;
+  const ShadowCasters casters(of);
+  const auto charts = charts_at(scene);
+  const std::vector<TileOfChart> tiles = tiles_of(sharp);
+  std::vector<TileRecords> listed(tiles.size());
+  ORIEL_TRY_VOID(parallel_for(stage, "sharp light", tiles.size(), [&](std::size_t i) {
+    std::uint64_t rays = 0;
+    const std::uint32_t page = sharp.charts[tiles[i].chart].page;
+    listed[i] = TileLister(scene, casters, tiles[i].chart, charts[page], rays).list(tiles[i].lower);
+    stage.count(rays);
+  }));
+  ShadowLists out;
+  out.at.resize(scene.map.size());
+  for (const std::uint32_t light : sharp.lights) out.light.lamps.push_back(lamp_of(of, light));
+  SharpWriter writer(casters, out.light);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const std::uint32_t page = sharp.charts[tiles[i].chart].page, width = scene.map[page].width;
+    std::map<const Record*, std::uint32_t> places;
+    for (std::uint32_t k = 0; k < listed[i].size(); ++k) {
+      const UVec2 at = tiles[i].lower + UVec2(k % kTile, k / kTile);
+      if (!listed[i][k] || at.x >= width || at.y >= scene.map[page].height) continue;
+      const std::size_t texel = std::size_t{at.y} * width + at.x;
+      if (charts[page][texel] != tiles[i].chart) continue;
+      const auto [place, anew] = places.try_emplace(listed[i][k].get(), 0);
+      if (anew) place->second = writer.place_of(*listed[i][k]);
+      if (out.at[page].empty()) out.at[page].resize(charts[page].size());
+      out.at[page][texel] = place->second;
+    }
+    listed[i].clear();
+  }
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,20 @@
+// Which triangles stand between texels of flat charts and lamps: the baked half of sharp light
+// (formats/assets/sharp_light.h, docs/notes/sharp-light.md).
+#pragma once
+
+#include "bake/jobs/context.h"
+#include "bake/radiosity/texels/lightmap_scene.h"
+#include "formats/assets/lightmap.h"
+#include "formats/assets/sharp_light.h"
+
+namespace oriel {
+
+struct ShadowLists {
+  SharpLight light;
+  std::vector<std::vector<std::uint32_t>> at;  // by page: LightmapPage::sharp_at; empty: nothing on this page
+};
+
+// Of the scene's SharpCharts. Error kStopped. rays: counted.
+Result<ShadowLists> list_shadows(const LightmapScene& scene, const Stage& stage);
+
+}  // namespace oriel

@@ -1,0 +1,35 @@
+// Which light leaves the texels: that of points, spots and suns on flat charts, which is computed by pixel
+// (formats/assets/sharp_light.h).
+#pragma once
+
+#include <vector>
+
+#include "bake/atlas/atlas.h"
+
+namespace oriel {
+
+// A chart in one plane whose texels are parallelograms: (x, y) in texels lies at origin + x along_x + y along_y.
+struct FlatChart {
+  bool flat = false;  // else nothing is known
+  std::uint32_t page = 0;
+  DVec3 origin{0}, along_x{0}, along_y{0};
+  DVec3 normal{0};           // unit, of the fronts
+  UVec2 lower{0}, upper{0};  // texels that it touches: [lower, upper)
+
+  DVec3 at(const DVec2& texel) const { return origin + texel.x * along_x + texel.y * along_y; }
+};
+
+struct SharpCharts {
+  std::vector<FlatChart> charts;  // by Atlas::chart
+  std::vector<std::uint32_t>
+      lights;                  // Scene::lights, in the order of SharpLight::lamps; none: all light is the texels'
+  std::vector<bool> is_sharp;  // by Scene::lights
+
+  bool apart(std::uint32_t light, std::uint32_t chart) const { return is_sharp[light] && charts[chart].flat; }
+};
+
+// Lamps with a measured profile stay in texels, wide suns too, whose shadows have no edges that texels lose, and the
+// suns of a day.
+SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas);
+
+}  // namespace oriel
