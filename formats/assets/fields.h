@@ -31,7 +31,7 @@ inline void fields(Archive& archive, Emitter& e) {
 }
 inline void fields(Archive& archive, LightmapPage& p) {
   archive(p.width, p.height, p.irradiance, p.standard_error, p.state, p.direction, p.cell, p.detail_width,
-          p.detail_height, p.detail);
+          p.detail_height, p.detail, p.sharp, p.sharp_at);
 }
 inline void fields(Archive& archive, LightProbe& p) {
   archive(p.position, p.valid, p.bright, p.kept, p.sh, p.depth);

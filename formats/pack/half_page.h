@@ -15,12 +15,13 @@ using Half4 = std::array<std::uint16_t, 4>;  // a is 1
 struct HalfPage {
   std::uint32_t width = 0, height = 0;
   float scale = 0;               // a power of two; 0: the page is black
-  std::vector<Half4> light;      // irradiance / scale, finite and >= 0
+  std::vector<Half4> light;      // irradiance / scale, without sharp light, finite and >= 0
   std::vector<Half4> direction;  // of a directional lightmap, as LightmapPage's, else empty
   // As LightmapPage's; detail / scale.
   std::vector<std::uint32_t> cell{};
   std::uint32_t detail_width = 0, detail_height = 0;
   std::vector<Half4> detail{};
+  std::vector<std::uint32_t> sharp_at{};  // as LightmapPage's
 };
 
 inline constexpr std::uint16_t kHalfOne = 0x3c00;  // exact: 1 in binary16

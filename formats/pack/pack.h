@@ -17,6 +17,7 @@
 #include "formats/assets/mesh.h"
 #include "formats/assets/mover.h"
 #include "formats/assets/radiance_map.h"
+#include "formats/assets/sharp_light.h"
 #include "formats/assets/surround_map.h"
 #include "formats/assets/walk_grid.h"
 #include "formats/core/bytes.h"
@@ -55,6 +56,7 @@ struct Pack {
   std::vector<Texture> textures;
   std::vector<Texture> normal_textures;
   std::vector<LightmapPage> lightmaps;
+  SharpLight sharp_light;  // of lightmaps
   std::vector<Reflector> reflectors;
   std::vector<RadianceMap> radiance_maps;
   std::vector<MapMesh> map_meshes;  // of each radiance map, or none

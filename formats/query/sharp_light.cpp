@@ -1,0 +1,146 @@
+#include "formats/query/sharp_light.h"
+
+#include <array>
+
+#include "formats/core/half.h"
+
+namespace oriel {
+namespace {
+
+// The numbers are the shader's. Of a disk of radius 1: directions of equal shares of it (Vogel 1979), and the side of a
+// square as large as a share.
+constexpr std::size_t kShares = 16;
+constexpr std::array<float, kShares> kDiskX = {0.177f, -0.226f, 0.035f, 0.285f, -0.522f, 0.495f, -0.165f, -0.316f,
+                                               0.685f, -0.712f, 0.343f, 0.254f, -0.765f, 0.897f, -0.548f, -0.126f};
+constexpr std::array<float, kShares> kDiskY = {0.000f, 0.207f, -0.394f, 0.371f, -0.092f, -0.315f, 0.616f, -0.608f,
+                                               0.250f, 0.294f, -0.734f, 0.809f, -0.443f, -0.197f, 0.779f, -0.976f};
+constexpr float kDiskStep = 0.443f;
+constexpr float kEndStep = 1e-7f;  // sine
+
+// A lamp as a point sees it.
+struct ShiningLamp {
+  Vec3 towards{0};     // unit
+  float distance = 0;  // 0: a sun's
+  float spread = 0;    // tangent of a sun's radius
+  Vec3 light{0};       // lux, without shadows
+};
+
+ShiningLamp shining(const SharpLamp& lamp, const Vec3& p, const Vec3& normal, std::span<const Vec3> factors) {
+  const Vec3 power = lamp.light_group < factors.size() ? lamp.intensity * factors[lamp.light_group] : lamp.intensity;
+  if (lamp.sun)
+    return {-lamp.direction, 0, std::tan(lamp.angular_radius_rad),
+            power * std::max(-glm::dot(normal, lamp.direction), 0.0f)};
+  const Vec3 to = lamp.position - p;
+  const float distance2 = std::max(length2(to), 1e-12f), distance = std::sqrt(distance2);
+  const Vec3 towards = to / distance;
+  const float cone =
+      std::clamp((-glm::dot(lamp.direction, towards) - lamp.cos_outer) * lamp.inverse_falloff, 0.0f, 1.0f);
+  return {towards, distance, 0, power * (cone * cone * std::max(glm::dot(normal, towards), 0.0f) / distance2)};
+}
+
+// One of a triangle's edges as a point sees it: a plane through both.
+struct SeenEdge {
+  Vec3 inwards{0};  // unit
+  float hard = 0;   // sine below which rounding is all that parts a direction from the plane
+  bool ends = false;
+
+  SeenEdge(const Vec3& a, const Vec3& b, float turn, bool shadow_ends) : ends(shadow_ends) {
+    const Vec3 across = turn * glm::cross(a, b);
+    const float size = std::max(glm::length(across), 1e-20f);
+    inwards = across / size;
+    hard = 1e-6f * (length2(a) + length2(b)) / size;
+  }
+  // How far it is on the triangle's side, of a sine; width: over which the edge spreads.
+  float inside(float sine, float width) const {
+    if (!ends) return sine >= -hard ? 1.0f : 0.0f;
+    return std::clamp(sine / (width + kEndStep) + 0.5f, 0.0f, 1.0f);
+  }
+};
+using SeenEdges = std::array<SeenEdge, 3>;
+
+float covered_by(const SeenEdges& edges, const Vec3& towards) {
+  float in_all = 1;
+  for (const SeenEdge& edge : edges) in_all = std::min(in_all, edge.inside(glm::dot(edge.inwards, towards), 0));
+  return in_all;
+}
+
+// covered: by share of the disk.
+void cover_disk(const SeenEdges& edges, const ShiningLamp& lamp, std::array<float, kShares>& covered) {
+  const Vec3& to = lamp.towards;
+  const Vec3 u = glm::normalize(std::abs(to.x) < 0.7f ? Vec3(0, to.z, -to.y) : Vec3(-to.z, 0, to.x));
+  const Vec3 v = glm::cross(to, u);
+  std::array<float, kShares> in_all;
+  in_all.fill(1);
+  for (const SeenEdge& edge : edges) {
+    const float sine = glm::dot(edge.inwards, to);
+    const Vec2 slope = lamp.spread * Vec2(glm::dot(edge.inwards, u), glm::dot(edge.inwards, v));
+    for (std::size_t i = 0; i < kShares; ++i)
+      in_all[i] =
+          std::min(in_all[i], edge.inside(sine + slope.x * kDiskX[i] + slope.y * kDiskY[i], kDiskStep * lamp.spread));
+  }
+  for (std::size_t i = 0; i < kShares; ++i) covered[i] = std::max(covered[i], in_all[i]);
+}
+
+// How much of a lamp those triangles leave.
+float visible_share(const SharpLight& light, const ShiningLamp& lamp, std::span<const std::uint32_t> words,
+                    const Vec3& p) {
+  float covered = 0;
+  std::array<float, kShares> covered_disk{};
+  for (const std::uint32_t word : words) {
+    const auto& corners = light.triangles[word & ((1u << kSharpEdgeShift) - 1)];
+    const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p, normal = glm::cross(b - a, c - a);
+    // The triangle's plane must lie between the point and the lamp.
+    const float height = glm::dot(normal, a);
+    const float of_lamp = glm::dot(normal, lamp.towards) * (lamp.distance > 0 ? lamp.distance : 1e20f);
+    if (height * (of_lamp - height) <= 0) continue;
+    const float turn = height > 0 ? 1.0f : -1.0f;
+    const auto ends = [word](int edge) { return (word >> (kSharpEdgeShift + edge) & 1u) != 0; };
+    const SeenEdges edges = {SeenEdge(a, b, turn, ends(0)), SeenEdge(b, c, turn, ends(1)),
+                             SeenEdge(c, a, turn, ends(2))};
+    if (lamp.spread > 0)
+      cover_disk(edges, lamp, covered_disk);
+    else if ((covered = std::max(covered, covered_by(edges, lamp.towards))) >= 1)
+      return 0;
+  }
+  for (const float share : covered_disk) covered += share / kShares;
+  return 1 - covered;
+}
+
+// Where in `words` the record of that place begins; 0: there is none.
+std::uint32_t record_at(const SharpLight& light, const LightmapPage& page, const Vec2& uv) {
+  const UVec2 size(page.width, page.height);
+  const Vec2 at = glm::clamp(uv, Vec2(0), Vec2(1)) * Vec2(size);
+  const UVec2 texel = glm::min(UVec2(at), size - 1u);
+  std::uint32_t place = page.sharp_at[std::size_t{texel.y} * page.width + texel.x];
+  Vec2 within = at - Vec2(texel);
+  while (place != 0 && light.words[place] == kSharpSplit) {
+    within *= 2.0f;
+    const UVec2 quarter(glm::min(within, Vec2(1)));
+    within -= Vec2(quarter);
+    place = light.words[place + 1 + quarter.x + 2 * quarter.y];
+  }
+  return place;
+}
+
+}  // namespace
+
+Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const Vec2& uv, const Vec3& p,
+                      const Vec3& normal, std::span<const Vec3> factors) {
+  if (page.sharp_at.empty()) return Vec3(0);
+  const std::uint32_t place = record_at(light, page, uv);
+  if (place == 0) return Vec3(0);
+  std::span<const std::uint32_t> words = std::span(light.words).subspan(place + 1);
+  Vec3 sum(0);
+  for (std::uint32_t lamps = light.words[place]; lamps > 0; --lamps) {
+    const SharpShine shine = SharpShine::of(words[0]);
+    const Vec3 tint = shine.tinted ? rgb_from_rgb9e5(words[1]) : Vec3(1);
+    words = words.subspan(shine.tinted ? 2 : 1);
+    const ShiningLamp lamp = shining(light.lamps[shine.lamp], p, normal, factors);
+    if (max_component(lamp.light) > 0)
+      sum += lamp.light * tint * visible_share(light, lamp, words.first(shine.count), p);
+    words = words.subspan(shine.count);
+  }
+  return sum;
+}
+
+}  // namespace oriel
