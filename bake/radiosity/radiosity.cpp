@@ -244,7 +244,7 @@ Result<bool> find_sharp_light(const RadiosityTask& task, ShadowLists& shadows) {
   const auto late = [&] { return task.options.left() < most; };
   ORIEL_TRY(const bool all,
             done_in_time(task.context, task.options.left ? late : std::function<bool()>(), [&]() -> Status {
-              ORIEL_TRY(shadows, list_shadows(task, task.quick));
+              ORIEL_TRY(shadows, list_shadows(task, *task.sharp, task.quick));
               return {};
             }));
   if (!all)

@@ -4,6 +4,7 @@
 
 #include "bake/jobs/context.h"
 #include "bake/radiosity/texels/lightmap_scene.h"
+#include "bake/radiosity/texels/sharp_charts.h"
 #include "formats/assets/lightmap.h"
 #include "formats/assets/sharp_light.h"
 
@@ -14,7 +15,7 @@ struct ShadowLists {
   std::vector<std::vector<std::uint32_t>> at;  // by page: LightmapPage::sharp_at; empty: nothing on this page
 };
 
-// Of the scene's SharpCharts. Error kStopped. rays: counted.
-Result<ShadowLists> list_shadows(const LightmapScene& scene, const Stage& stage);
+// Error kStopped.
+Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp, const Stage& stage);
 
 }  // namespace oriel

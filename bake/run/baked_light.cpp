@@ -5,6 +5,7 @@
 #include "bake/brdf/specular.h"
 #include "bake/trace/albedo.h"
 #include "formats/assets/bilinear.h"
+#include "formats/query/sharp_light.h"
 
 namespace oriel {
 namespace {
@@ -25,6 +26,11 @@ Vec3 direction_at(const LightmapPage& page, const Vec2& uv) {
   return d;
 }
 
+Vec3 tilted_light(const LightmapPage& page, const Vec2& uv, const Vec3& e, const Vec3& tilted, const Vec3& normal) {
+  if (page.direction.empty() || tilted == normal) return e;
+  return e * directional_ratio(direction_at(page, uv), tilted, normal);
+}
+
 // Emission and diffuse reflection, and where wide_lobe the specular one too, as if its lobe were that wide.
 Vec3 shown_light(const BakedScene& baked, const SeenSurface& seen, const SurfacePoint& surface, bool wide_lobe) {
   const Scene& scene = baked.accel.scene();
@@ -34,8 +40,7 @@ Vec3 shown_light(const BakedScene& baked, const SeenSurface& seen, const Surface
   const Vec3 r = reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye));
   const Vec3 share = surface.shade.diffuse * (1 - max_component(r)) + (wide_lobe ? r : Vec3(0));
   const Vec3 normal = geometry_at(scene, seen.hit, -seen.towards_eye).normal;
-  const Vec3 e =
-      baked_irradiance(baked.atlas, baked.pages, {surface.triangle, surface.barycentric}, surface.normal, normal);
+  const Vec3 e = baked.irradiance({surface.triangle, surface.barycentric}, surface.normal, normal);
   return light + share / kPi * e;
 }
 
@@ -50,7 +55,7 @@ Vec3 lobe_light(const BakedScene& baked, const ReflectingPoint& seen, std::uint3
   const OnDiffuse add = [&](const DiffuseVertex& v) {
     if (!v.front) return 1.0f;
     const Vec3 normal = geometric_normal(baked.accel.scene(), v.triangle);
-    sum += v.weight / kPi * baked_irradiance(baked.atlas, baked.pages, {v.triangle, v.barycentric}, normal, normal);
+    sum += v.weight / kPi * baked.irradiance({v.triangle, v.barycentric}, normal, normal);
     return 1.0f;
   };
   for (std::uint32_t i = 0; i < paths; ++i) {
@@ -80,9 +85,24 @@ Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, c
   if (index < 0) return Vec3(0);
   const LightmapPage& page = pages[static_cast<std::size_t>(index)];
   const Vec2 uv = uv_at(atlas, at.triangle, at.barycentric);
-  const Vec3 e = irradiance_at(page, uv);
-  if (page.direction.empty() || tilted == normal) return e;
-  return e * directional_ratio(direction_at(page, uv), tilted, normal);
+  return tilted_light(page, uv, irradiance_at(page, uv), tilted, normal);
+}
+
+Vec3 BakedScene::irradiance(const TexelPoint& at, const Vec3& tilted, const Vec3& normal) const {
+  const std::int32_t index = atlas.page[at.triangle];
+  if (sharp == nullptr || index < 0 || pages[static_cast<std::size_t>(index)].sharp_at.empty())
+    return baked_irradiance(atlas, pages, at, tilted, normal);
+  const LightmapPage& page = pages[static_cast<std::size_t>(index)];
+  const Vec2 uv = uv_at(atlas, at.triangle, at.barycentric);
+  return tilted_light(page, uv, smooth_irradiance_at(page, uv), tilted, normal) + sharp_irradiance_at(at, tilted);
+}
+
+Vec3 BakedScene::sharp_irradiance_at(const TexelPoint& at, const Vec3& tilted, std::span<const Vec3> factors) const {
+  const std::int32_t index = atlas.page[at.triangle];
+  if (sharp == nullptr || index < 0 || pages[static_cast<std::size_t>(index)].sharp_at.empty()) return Vec3(0);
+  const Vec3 place = point_on(accel.scene(), at.triangle, at.barycentric);
+  return sharp_irradiance(*sharp, pages[static_cast<std::size_t>(index)], uv_at(atlas, at.triangle, at.barycentric),
+                          place, tilted, factors);
 }
 
 Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {

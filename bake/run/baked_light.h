@@ -7,11 +7,13 @@
 #include "bake/radiance/capture.h"
 #include "bake/trace/path.h"
 #include "formats/assets/lightmap.h"
+#include "formats/assets/sharp_light.h"
 
 namespace oriel {
 
 // Irradiance at a point, lux: bilinear between texel centres, as the player's hardware does, and with a directional
 // lightmap that of the normal `tilted` instead of `normal` (both unit, front side). 0 for triangles without a chart.
+// Sharp light is that of texels.
 Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, const TexelPoint& at, const Vec3& tilted,
                       const Vec3& normal);
 
@@ -21,7 +23,12 @@ struct BakedScene {
   const LightSet& lights;
   const Atlas& atlas;
   std::span<const LightmapPage> pages;
-  float unlit_white = 1;  // what white unlit surfaces show, cd/m²
+  float unlit_white = 1;              // what white unlit surfaces show, cd/m²
+  const SharpLight* sharp = nullptr;  // of the pages; null: they have none
+
+  // As baked_irradiance(), with sharp light at the point. factors: of it, by light group; empty: it shines once.
+  Vec3 irradiance(const TexelPoint& at, const Vec3& tilted, const Vec3& normal) const;
+  Vec3 sharp_irradiance_at(const TexelPoint& at, const Vec3& tilted, std::span<const Vec3> factors = {}) const;
 };
 
 // Radiance that a surface sends towards the eye, cd/m², by the player's shading equation: (1 - max R) kd/π E, the

@@ -102,10 +102,14 @@ class Shares {
     }
     if (!hit.front) return;
     const SurfacePoint point = surface_at(scene_, hit, ray.direction);
-    for (std::size_t g = 0; g < light_.size(); ++g)
-      sum[g] +=
-          DVec3(point.shade.diffuse / kPi *
-                baked_irradiance(baked_.atlas, light_[g], {hit.triangle, hit.barycentric}, point.normal, point.normal));
+    const TexelPoint at{hit.triangle, hit.barycentric};
+    for (std::size_t g = 0; g < light_.size(); ++g) {
+      std::vector<Vec3> of_group(light_.size(), Vec3(0));
+      of_group[g] = Vec3(1);
+      const Vec3 e = baked_irradiance(baked_.atlas, light_[g], at, point.normal, point.normal) +
+                     baked_.sharp_irradiance_at(at, point.normal, of_group);
+      sum[g] += DVec3(point.shade.diffuse / kPi * e);
+    }
   }
 
   std::vector<Vec3> of(const std::vector<DVec3>& sum) const {

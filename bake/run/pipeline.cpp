@@ -80,6 +80,7 @@ class Bake {
     ORIEL_TRY(Radiosity light, bake_lightmap());
     ORIEL_TRY(result_.ledger, keep_energy_ledger(light));
     pack().lightmaps = std::move(light.pages);
+    pack().sharp_light = std::move(light.sharp_light);
     const auto eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
     ORIEL_TRY(unlit_white_, unlit_white(task(), path_options(options_), eyes));
     planned.light_reused = light.report.reuse.reused > 0;
@@ -206,6 +207,7 @@ class Bake {
       radiosity.left = [this] { return budget_.left() - later_s_; };
       radiosity.left_of_all = [this] { return budget_.left() - writing_s(); };
     }
+    radiosity.sharp = true;
     radiosity.directional = choose_directional(scene(), options_.directional, result_.omissions);
     radiosity.eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
     radiosity.held_out = held_out_eyes(prepared_.region, kLightmapEyes, context_.seed);
@@ -366,7 +368,9 @@ class Bake {
   const Accel& accel() const { return *prepared_.accel; }
   Pack& pack() { return result_.pack; }
   LightmapScene laid_out() const { return {*transport_, prepared_.atlas, prepared_.texel_map}; }
-  BakeTask task() { return {options_, prepared_, *lights_, context_, pack().lightmaps, unlit_white_}; }
+  BakeTask task() {
+    return {options_, prepared_, *lights_, context_, pack().lightmaps, unlit_white_, &pack().sharp_light};
+  }
   template <class Lines>
   void omit(const Lines& lines) {
     result_.omissions.insert(result_.omissions.end(), lines.begin(), lines.end());

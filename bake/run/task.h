@@ -17,11 +17,12 @@ struct BakeTask {
   Context& context;
   std::span<const LightmapPage> lightmaps;  // baked so far
   float unlit_white = 1;                    // cd/m², unlit.h
+  const SharpLight* sharp = nullptr;        // of the lightmaps; null: they have none
 
   const Scene& scene() const { return prepared.scene(); }
   const Accel& accel() const { return *prepared.accel; }
   // With the light so far.
-  BakedScene baked() const { return {accel(), lights, prepared.atlas, lightmaps, unlit_white}; }
+  BakedScene baked() const { return {accel(), lights, prepared.atlas, lightmaps, unlit_white, sharp}; }
 };
 
 }  // namespace oriel

@@ -11,6 +11,7 @@
 #include "bake/radiosity/texels/frame_pixels.h"
 #include "bake/radiosity/texels/grouped_light.h"
 #include "bake/radiosity/texels/lightmap_scene.h"
+#include "bake/radiosity/texels/sharp_charts.h"
 
 namespace oriel {
 
@@ -19,8 +20,9 @@ struct RadiosityTask : LightmapScene {
   std::span<const FramePixel> pixels;  // that measure the error (texels/frame_error.h)
   const RadiosityOptions& options;
   Context& context;
-  Stage paths;  // counts path rays
-  Stage quick;  // counts shadow rays and probe rays
+  Stage paths;                         // counts path rays
+  Stage quick;                         // counts shadow rays and probe rays
+  const SharpCharts* sharp = nullptr;  // null: all light is the texels'
 
   // The cost so far, in path rays: two and a half to four shadow or probe rays take the time of one, as measured.
   std::uint64_t work() const { return paths.traced() + quick.traced() / kQuickRays; }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "bake/atlas/texel_map.h"
-#include "bake/radiosity/texels/sharp_charts.h"
 #include "bake/trace/path.h"
 
 namespace oriel {
@@ -12,7 +11,6 @@ struct LightmapScene {
   const Transport& transport;
   const Atlas& atlas;
   std::span<const TexelMapPage> map;
-  const SharpCharts* sharp = nullptr;  // null: all light is the texels'
 };
 
 }  // namespace oriel
