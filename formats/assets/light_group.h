@@ -43,8 +43,9 @@ struct GroupTexels {
   std::vector<GroupCode> light, detail;  // lux / 2^exponent; by texel and by point of the page's details
 };
 
-// What a lightmap page's light is made of. One group of each texel is not stored: its light is what the others leave of
-// the page's, which therefore is the sum of all. It is the brightest, so that little of its accuracy is lost.
+// What a lightmap page's light but for sharp light is made of. One group of each texel is not stored: its light is what
+// the others leave of the page's, which therefore is the sum of all. It is the brightest, so that little of its
+// accuracy is lost.
 struct PageGroups {
   std::uint32_t page = 0;
   std::uint32_t width = 0, height = 0, detail_width = 0, detail_height = 0;  // the page's

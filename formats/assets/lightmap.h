@@ -67,6 +67,13 @@ struct DetailBlock {
 inline constexpr std::uint32_t kMostDetail = 32;        // steps along a cell's side
 inline constexpr std::uint32_t kMaxDetailSide = 16384;  // points of an image of details
 
+// By texel.
+inline std::vector<Vec3> without_sharp(const LightmapPage& page) {
+  std::vector<Vec3> light = page.irradiance;
+  for (std::size_t i = 0; i < page.sharp.size(); ++i) light[i] = glm::max(light[i] - page.sharp[i], Vec3(0));
+  return light;
+}
+
 namespace lightmap_detail {
 
 inline Vec3 bilinear(const std::vector<Vec3>& light, std::uint32_t width, std::size_t first, std::uint32_t right,

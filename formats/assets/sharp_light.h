@@ -30,10 +30,13 @@ struct SharpLamp {
 //     where it is tinted a word in RGB9E5 (formats/core/half.h): what arrives of its light, such as through glass,
 //     and a word for each triangle that may stand in the way: its number in `triangles` in the low 29 bits, and from
 //     bit 29 on whether edge k, from corner k to k + 1, is one of the shadow's.
-// Lamps that do not reach a texel are not listed.
+// Lamps that do not reach a texel are not listed. `words` is one record after the other; the first, at 0, is of no
+// lamps, and the quarters of a split are records before it.
 inline constexpr std::uint32_t kSharpSplit = ~0u;
 inline constexpr int kMostSharpSplits = 5;  // of a texel into quarters of quarters
 inline constexpr std::uint32_t kMostSharpLamps = 1024;
+// So that textures of 16384 rows hold them, which OpenGL 4.1 promises.
+inline constexpr std::size_t kMostSharpWords = 1u << 25, kMostSharpTriangles = 1u << 24;
 inline constexpr int kSharpEdgeShift = 29;
 
 struct SharpShine {

@@ -133,7 +133,7 @@ Status decode_texture_place(const OpenFile& file, const SectionInfo& section, Te
 // A pack whose images have their sizes only.
 struct Opened {
   Pack pack;
-  std::vector<std::uint8_t> directional;  // by lightmap page: whether it has directions
+  std::vector<LightmapFlags> flags;  // by lightmap page
 };
 
 // An image without its pixels.
@@ -150,12 +150,11 @@ Status decode_image_place(const OpenFile& file, const SectionInfo& section, Open
       return decode_texture_place(file, section, pack.normal_textures[section.nth]);
     case kLightmapSection: {
       LightmapPage& page = pack.lightmaps[section.nth];
-      bool directional = false;
-      ORIEL_TRY_VOID(start(kLightmapPlaceBytes, [&](Serial& s) { describe_place(s, page, directional); }));
-      opened.directional[section.nth] = directional;
+      LightmapFlags& flags = opened.flags[section.nth];
+      ORIEL_TRY_VOID(start(kLightmapPlaceBytes, [&](Serial& s) { describe_place(s, page, flags); }));
       const std::uint64_t texels = area(page.width, page.height);
-      return expect_bytes(
-          section, light_bytes(texels, directional, area(page.detail_width, page.detail_height)) + 4 + 7 * texels);
+      return expect_bytes(section, light_bytes(texels, flags, area(page.detail_width, page.detail_height)) +
+                                       (flags.sharp ? 4 + 6 * texels : 0) + 4 + 7 * texels);
     }
     case kSurroundMapSection: {
       SurroundMap& map = pack.surround_maps[section.nth];
@@ -198,22 +197,25 @@ Result<PackIndex> read_index_of(const OpenFile& file) {
 Result<DeferredPack> open_sections(OpenFile file) {
   ORIEL_TRY(PackIndex index, read_index_of(file));
   Opened opened{pack_of(index), {}};
-  opened.directional.resize(opened.pack.lightmaps.size());
+  opened.flags.resize(opened.pack.lightmaps.size());
   std::uint64_t bytes = 0;  // that are no images
   for (const SectionInfo& section : index.sections) bytes += is_image(section.kind) ? 0 : section.raw_bytes;
   ORIEL_TRY_VOID(first_failure(index.sections.size(), bytes + 2048 * index.sections.size(),
                                [&](std::size_t i) { return open_section(file, index.sections[i], opened); }));
   ORIEL_TRY_VOID(refuse_errors(validate(opened.pack, ImagePixels::kDeferred)));
   auto images = std::make_shared<DeferredImages>(std::move(file), std::move(index.sections), opened.pack,
-                                                 std::move(opened.directional));
+                                                 std::move(opened.flags));
   return DeferredPack{std::move(opened.pack), std::move(images)};
 }
 
 }  // namespace
 
 DeferredImages::DeferredImages(OpenFile file, std::vector<SectionInfo> sections, const Pack& pack,
-                               std::vector<std::uint8_t> directional)
-    : file_(std::move(file)), sections_(std::move(sections)), directional_(std::move(directional)) {
+                               std::vector<LightmapFlags> flags)
+    : file_(std::move(file)),
+      sections_(std::move(sections)),
+      flags_(std::move(flags)),
+      sharp_records_(sharp_records(pack.sharp_light)) {
   by_kind_.resize(std::size(kSectionKinds));
   checked_ = std::make_unique<std::atomic<bool>[]>(sections_.size());
   for (std::size_t i = 0; i < sections_.size(); ++i) {
@@ -252,6 +254,7 @@ Result<Image> DeferredImages::load(std::uint32_t kind, std::size_t nth) const {
     IssueList list;
     list.in_section(kind, nth);
     validate_pixels(image, list);
+    if constexpr (std::is_same_v<Image, LightmapPage>) validate_sharp_places(image.sharp_at, sharp_records_, list);
     ORIEL_TRY_VOID(refuse_errors(list.issues));
     return image;
   });
@@ -286,8 +289,8 @@ Result<HalfPage> DeferredImages::light(std::size_t i) const {
   auto loaded = without_exceptions([&]() -> Result<HalfPage> {
     ORIEL_TRY(const auto stored, stored_in(file_, section));
     thread_local RawBytes buffer;
-    const std::span<std::byte> raw = some_of(
-        buffer, light_bytes(area(sizes_[at].x, sizes_[at].y), directional(i), area(details_[i].x, details_[i].y)));
+    const std::span<std::byte> raw =
+        some_of(buffer, light_bytes(area(sizes_[at].x, sizes_[at].y), flags_[i], area(details_[i].x, details_[i].y)));
     ORIEL_TRY_VOID(decompress(stored, section, raw));
     ByteReader in(raw);
     HalfPage page;
@@ -300,6 +303,7 @@ Result<HalfPage> DeferredImages::light(std::size_t i) const {
     IssueList list;
     list.in_section(kLightmapSection, i);
     validate_cells(page.cell, {page.width, page.height}, details_[i], list);
+    validate_sharp_places(page.sharp_at, sharp_records_, list);
     ORIEL_TRY_VOID(refuse_errors(list.issues));
     return page;
   });

@@ -18,10 +18,8 @@ namespace oriel {
 // must be of the size that it had.
 class DeferredImages {
  public:
-  // pack: decoded from the file, with images that have their sizes only. directional: of each lightmap page, whether it
-  // has directions.
-  DeferredImages(OpenFile file, std::vector<SectionInfo> sections, const Pack& pack,
-                 std::vector<std::uint8_t> directional);
+  // pack: decoded from the file, with images that have their sizes only. flags: of each lightmap page.
+  DeferredImages(OpenFile file, std::vector<SectionInfo> sections, const Pack& pack, std::vector<LightmapFlags> flags);
 
   // Pack::textures[i] and so on, decoded and checked as read_pack does.
   Result<Texture> texture(std::size_t i) const;
@@ -31,7 +29,7 @@ class DeferredImages {
   Result<SurroundMap> surround_map(std::size_t i) const;
   // Of a lightmap page what lights surfaces: half of its bytes, and nothing is computed.
   Result<HalfPage> light(std::size_t i) const;
-  bool directional(std::size_t page) const { return directional_[page] != 0; }
+  bool directional(std::size_t page) const { return flags_[page].directional; }
 
   // All sections of the file, those too that are no images: compares the checksum.
   std::size_t sections() const { return sections_.size(); }
@@ -51,7 +49,8 @@ class DeferredImages {
   std::vector<IVec2> sizes_;                       // of images, by section
   std::vector<IVec2> details_;                     // of pages' details, by page
   std::vector<std::vector<std::size_t>> by_kind_;  // into sections_, in the order of kSectionKinds
-  std::vector<std::uint8_t> directional_;          // by page
+  std::vector<LightmapFlags> flags_;               // by page
+  std::vector<std::uint8_t> sharp_records_;        // by word (issues.h)
   std::unique_ptr<std::atomic<bool>[]> checked_;   // by section
 };
 

@@ -12,6 +12,12 @@ namespace oriel {
 
 using Half4 = std::array<std::uint16_t, 4>;  // a is 1
 
+// What of a page there is in a file.
+struct LightmapFlags {
+  bool directional = false;
+  bool sharp = false;  // places of sharp light, and what of it texels have
+};
+
 struct HalfPage {
   std::uint32_t width = 0, height = 0;
   float scale = 0;               // a power of two; 0: the page is black

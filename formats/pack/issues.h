@@ -119,6 +119,12 @@ void validate_pixels(const Texture& texture, IssueList& list);
 void validate_pixels(const LightmapPage& page, IssueList& list);
 // Of a page of that size: that each lies in its image of details.
 void validate_cells(std::span<const std::uint32_t> cells, const IVec2& size, const IVec2& details, IssueList& list);
+void validate_sharp_light(const Pack& pack, IssueList& list);
+// By word: 0, or 1 and how many splits are below the record that begins there. None behind one that makes no sense.
+std::vector<std::uint8_t> sharp_records(const SharpLight& light);
+// Of a page: that each is of one of those records.
+void validate_sharp_places(std::span<const std::uint32_t> places, std::span<const std::uint8_t> records,
+                           IssueList& list);
 void validate_pixels(const RadianceMap& map, IssueList& list);
 void validate_pixels(const SurroundMap& map, IssueList& list);
 void validate_elements(const Pack& pack, IssueList& list);

@@ -85,6 +85,7 @@ inline constexpr std::uint32_t kSolidSection = fourcc("GLAS");
 inline constexpr std::uint32_t kEmissionTextureSection = fourcc("ETEX");
 inline constexpr std::uint32_t kTextureSection = fourcc("TEXR");
 inline constexpr std::uint32_t kLightmapSection = fourcc("LMAP");
+inline constexpr std::uint32_t kSharpLightSection = fourcc("SHRP");
 inline constexpr std::uint32_t kNormalTextureSection = fourcc("NTEX");
 inline constexpr std::uint32_t kReflectorSection = fourcc("RFLT");
 inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
@@ -108,7 +109,7 @@ inline constexpr std::uint32_t kPageGroupsSection = fourcc("GLMP");
 inline constexpr std::uint32_t kDaySection = fourcc("DAYH");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 30> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 31> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -118,6 +119,7 @@ inline constexpr std::array<SectionKind, 30> kSectionKinds = {{
     {kEmissionTextureSection, "emission textures", true, false, false},
     {kTextureSection, "texture", false, false, true},
     {kLightmapSection, "lightmap page", false, false, true},
+    {kSharpLightSection, "sharp light", false, false, false},
     {kNormalTextureSection, "normal texture", true, false, true},
     {kReflectorSection, "reflectors", false, false, false},
     {kRadianceMapSection, "radiance map", false, false, true},

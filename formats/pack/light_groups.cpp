@@ -1,4 +1,4 @@
-// Groups of lamps, and what lightmap pages have of each.
+// Lamps: groups of them, what lightmap pages have of each, and those whose light is computed by pixel.
 #include "formats/pack/sections.h"
 
 namespace oriel {
@@ -68,6 +68,18 @@ void describe(Serial& s, Day& day) {
   if (hours > kMaxDayHours) s.refuse("found {} hours, expected at most {}", hours, kMaxDayHours);
   s.list(day.hours, hours,
          [&](DayHour& hour) { s(hour.hour, hour.group, hour.to_sun, hour.sun_lux, hour.sky_lux, hour.sky); });
+}
+
+void describe(Serial& s, SharpLight& light) {
+  const std::uint32_t lamps = s.count(light.lamps), words = s.count(light.words), triangles = s.count(light.triangles);
+  s.list(light.lamps, lamps, [&](SharpLamp& lamp) {
+    s.choice("sun flag", 1, lamp.sun);
+    s.reserved(3);
+    s(lamp.position, lamp.direction, lamp.intensity, lamp.cos_outer, lamp.inverse_falloff, lamp.angular_radius_rad,
+      lamp.light_group);
+  });
+  s.planes(light.words, words);
+  s.planes(light.triangles, triangles);
 }
 
 }  // namespace oriel

@@ -121,12 +121,12 @@ void describe(Serial& s, Texture& texture) {
   texture.texels.assign(bytes, bytes + texels.size() * sizeof(Rgba8));
 }
 
-void describe_place(Serial& s, LightmapPage& page, bool& directional) {
+void describe_place(Serial& s, LightmapPage& page, LightmapFlags& flags) {
   s.size(page.width, page.height);
-  auto flags = static_cast<std::uint32_t>(directional);
-  s(flags);
-  if (flags > 1) s.refuse("found lightmap flags {:#x}, expected 0 or 1", flags);
-  directional = flags == 1;
+  std::uint32_t bits = (flags.directional ? 1u : 0u) | (flags.sharp ? 2u : 0u);
+  s(bits);
+  if (bits > 3) s.refuse("found lightmap flags {:#x}, expected 0 to 3", bits);
+  flags = {(bits & 1) != 0, (bits & 2) != 0};
   s(page.detail_width, page.detail_height);
   const auto usable = [](std::uint32_t side) { return side <= kMaxDetailSide; };
   if (!usable(page.detail_width) || !usable(page.detail_height) ||
@@ -135,16 +135,48 @@ void describe_place(Serial& s, LightmapPage& page, bool& directional) {
              kMaxDetailSide);
 }
 
+namespace {
+
+// The light that is stored beside sharp light. The rounding of both as one sum has no bits that another round would
+// take: what was read is written as it was.
+std::vector<Vec3> light_beside_sharp(const LightmapPage& page) {
+  const int exponent = scale_exponent(largest_channel(page.sharp), 11);
+  const float up = std::ldexp(1.0f, exponent), down = std::ldexp(1.0f, -exponent);
+  std::vector<Vec3> rest = without_sharp(page);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const float sharp = float_from_half(half_from_float(page.sharp[i][c] * down)) * up;
+      rest[i][c] = (rest[i][c] + sharp) - sharp;
+    }
+  return rest;
+}
+
+// And what of its light texels have.
+void describe_sharp(Serial& s, LightmapPage& page, std::uint64_t texels) {
+  s.planes(page.sharp_at, texels);
+  const int exponent = describe_half_exponent(s, page.sharp);
+  describe_halves(s, page.sharp, texels, exponent, "sharp light");
+  if (!s.reading() || !s.ok()) return;
+  for (std::size_t i = 0; i < texels; ++i) page.irradiance[i] += page.sharp[i];
+}
+
+}  // namespace
+
 void describe(Serial& s, LightmapPage& page) {
-  bool directional = !page.direction.empty();
-  describe_place(s, page, directional);
+  LightmapFlags flags{!page.direction.empty(), !page.sharp_at.empty()};
+  std::vector<Vec3> beside_sharp;
+  const bool divide = !s.reading() && flags.sharp;
+  if (divide) beside_sharp = light_beside_sharp(page);
+  std::vector<Vec3>& light = divide ? beside_sharp : page.irradiance;
+  describe_place(s, page, flags);
   const std::uint64_t texels = std::uint64_t{page.width} * page.height;
   const std::uint64_t details = std::uint64_t{page.detail_width} * page.detail_height;
-  const int exponent = describe_half_exponent(s, page.irradiance, page.detail);
-  describe_halves(s, page.irradiance, texels, exponent, "irradiance");
-  if (directional) describe_directions(s, page.direction, texels);
+  const int exponent = describe_half_exponent(s, light, page.detail);
+  describe_halves(s, light, texels, exponent, "irradiance");
+  if (flags.directional) describe_directions(s, page.direction, texels);
   if (details > 0) s.planes(page.cell, texels);
   describe_halves(s, page.detail, details, exponent, "detail");
+  if (flags.sharp) describe_sharp(s, page, texels);
   const int of_errors = describe_half_exponent(s, page.standard_error);
   describe_halves(s, page.standard_error, texels, of_errors, "standard error");
   s.coded<std::uint8_t>(
@@ -184,8 +216,8 @@ Status get_half_texels(ByteReader& in, std::uint64_t count, const char* what, st
 Status decode(ByteReader& in, HalfPage& page) {
   Serial s(in);
   LightmapPage place;
-  bool directional = false;
-  describe_place(s, place, directional);
+  LightmapFlags flags;
+  describe_place(s, place, flags);
   int exponent = 0;
   s.scale_exponent(exponent);
   if (!s.ok()) return s.status();
@@ -195,11 +227,13 @@ Status decode(ByteReader& in, HalfPage& page) {
   const std::uint64_t texels = std::uint64_t{page.width} * page.height;
   ORIEL_TRY_VOID(get_half_texels(in, texels, "irradiance", page.light));
   std::vector<Vec3> directions;
-  if (directional) describe_directions(s, directions, texels);
+  if (flags.directional) describe_directions(s, directions, texels);
   page.direction = halves_of(directions);
   if (page.detail_width > 0) s.planes(page.cell, texels);
   if (!s.ok()) return s.status();
-  return get_half_texels(in, std::uint64_t{page.detail_width} * page.detail_height, "detail", page.detail);
+  ORIEL_TRY_VOID(get_half_texels(in, std::uint64_t{page.detail_width} * page.detail_height, "detail", page.detail));
+  if (flags.sharp) s.planes(page.sharp_at, texels);
+  return s.status();
 }
 
 void describe_place(Serial& s, RadianceMap& map, RadianceMapScale& scale) {

@@ -35,6 +35,7 @@ void describe(Serial& s, LightGroup& group);
 void describe_motion(Serial& s, MoverPose& rest, std::vector<MoverKey>& keys);
 void describe(Serial& s, PageGroups& page);
 void describe(Serial& s, Day& day);
+void describe(Serial& s, SharpLight& light);
 
 // The beginning of an image's section: all but what is there by texel.
 struct RadianceMapScale {
@@ -47,13 +48,14 @@ struct SurroundMapScale {
 };
 inline constexpr std::size_t kRadianceMapPlaceBytes = 56, kSurroundMapPlaceBytes = 24, kLightmapPlaceBytes = 20;
 void describe_place(Serial& s, Texture& texture);
-void describe_place(Serial& s, LightmapPage& page, bool& directional);
+void describe_place(Serial& s, LightmapPage& page, LightmapFlags& flags);
 void describe_place(Serial& s, RadianceMap& map, RadianceMapScale& scale);
 void describe_place(Serial& s, SurroundMap& map, SurroundMapScale& scale);
 
 // Of a lightmap page all that lights surfaces, which is the beginning of its section: so many bytes.
-inline std::uint64_t light_bytes(std::uint64_t texels, bool directional, std::uint64_t details) {
-  return kLightmapPlaceBytes + 4 + (directional ? 12 : 6) * texels + (details > 0 ? 4 * texels + 6 * details : 0);
+inline std::uint64_t light_bytes(std::uint64_t texels, const LightmapFlags& flags, std::uint64_t details) {
+  return kLightmapPlaceBytes + 4 + (flags.directional ? 12 : 6) * texels +
+         (details > 0 ? 4 * texels + 6 * details : 0) + (flags.sharp ? 4 * texels : 0);
 }
 Status decode(ByteReader& in, HalfPage& page);
 
@@ -85,6 +87,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.list(kEmissionTextureSection, pack.emission_textures);
   v.each(kTextureSection, pack.textures);
   v.each(kLightmapSection, pack.lightmaps);
+  v.one(kSharpLightSection, pack.sharp_light, !pack.sharp_light.empty());
   v.each(kNormalTextureSection, pack.normal_textures);
   v.list(kReflectorSection, pack.reflectors);
   v.each(kRadianceMapSection, pack.radiance_maps);

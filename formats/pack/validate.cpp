@@ -228,6 +228,7 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_emission_textures(pack, list);
   validate_textures(pack, pixels, list);
   validate_lightmaps(pack, pixels, list);
+  validate_sharp_light(pack, list);
   validate_reflectors(pack, list);
   validate_radiance_maps(pack, pixels, list);
   validate_elements(pack, list);

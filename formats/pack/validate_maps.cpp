@@ -124,11 +124,12 @@ void validate_pixels(const Texture& texture, IssueList& list) {
 void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& all) {
   std::size_t texels = 0;
   for (const LightmapPage& page : pack.lightmaps) texels += page.irradiance.size();
+  const std::vector<std::uint8_t> records = sharp_records(pack.sharp_light);
   all.side_by_side(pack.lightmaps.size(), texels > kMuch, [&](std::size_t i, IssueList& list) {
     const LightmapPage& page = pack.lightmaps[i];
     list.in_section(kLightmapSection, i);
     if (pixels == ImagePixels::kHere)
-      validate_pixels(page, list);
+      validate_pixels(page, list), validate_sharp_places(page.sharp_at, records, list);
     else
       check_area(301, page.width, page.height, {}, list);
   });
@@ -153,10 +154,25 @@ void validate_cells(std::span<const std::uint32_t> cells, const IVec2& size, con
   }
 }
 
+static void validate_sharp(const LightmapPage& page, IssueList& list) {
+  if ((page.sharp.empty() && page.sharp_at.empty()) ||
+      !check_area(309, page.width, page.height, {page.sharp.size(), page.sharp_at.size()}, list))
+    return;
+  list.each(309, "texels of sharp light", page.sharp, is_light, kNotNegative);
+  const float rounding = 1.001f;
+  for (std::size_t i = 0; i < page.sharp.size(); ++i)
+    if (glm::any(glm::greaterThan(page.sharp[i], rounding * page.irradiance[i]))) {
+      list.error(309, "texel {}: found sharp light {}, expected at most all light, {}", i, text_of(page.sharp[i]),
+                 text_of(page.irradiance[i]));
+      return;
+    }
+}
+
 void validate_pixels(const LightmapPage& page, IssueList& list) {
   if (!check_area(301, page.width, page.height, {page.irradiance.size(), page.standard_error.size(), page.state.size()},
                   list))
     return;
+  validate_sharp(page, list);
   list.each(302, "texels of irradiance", page.irradiance, is_light, kNotNegative);
   list.each(303, "texels of standard error", page.standard_error, is_light, kNotNegative);
   const IVec2 size(page.width, page.height), details(page.detail_width, page.detail_height);

@@ -60,9 +60,11 @@ PageGroups groups_of_page(const LightmapPage& page, std::uint32_t number,
   PageGroups out;
   out.page = number, out.width = page.width, out.height = page.height;
   out.detail_width = page.detail_width, out.detail_height = page.detail_height;
+  std::vector<std::vector<Vec3>> smooth;  // by group
+  for (const auto& pages : light) smooth.push_back(without_sharp(pages[number]));
   float brightest = 0;
-  for (const auto& pages : light)
-    for (const std::vector<Vec3>* values : {&pages[number].irradiance, &pages[number].detail})
+  for (std::size_t g = 0; g < light.size(); ++g)
+    for (const std::vector<Vec3>* values : {&std::as_const(smooth[g]), &light[g][number].detail})
       for (const Vec3& value : *values) brightest = std::max(brightest, max_component(value));
   if (brightest > 0) out.exponent = std::clamp(std::ilogb(brightest) + 1 - kHalfExponent, -94, 112);
   const float inverse = std::ldexp(1.0f, -out.exponent);
@@ -70,8 +72,8 @@ PageGroups groups_of_page(const LightmapPage& page, std::uint32_t number,
   for (std::uint32_t g = 0; g < light.size(); ++g) out.others[g].group = g;
   out.rest.resize(page.irradiance.size()), out.rest_of_detail.resize(page.detail.size());
   divide(
-      light.size(), [&](std::size_t g) -> const std::vector<Vec3>& { return light[g][number].irradiance; }, inverse,
-      out.rest, [&](std::size_t g) -> std::vector<GroupCode>& { return out.others[g].light; });
+      light.size(), [&](std::size_t g) -> const std::vector<Vec3>& { return smooth[g]; }, inverse, out.rest,
+      [&](std::size_t g) -> std::vector<GroupCode>& { return out.others[g].light; });
   divide(
       light.size(), [&](std::size_t g) -> const std::vector<Vec3>& { return light[g][number].detail; }, inverse,
       out.rest_of_detail, [&](std::size_t g) -> std::vector<GroupCode>& { return out.others[g].detail; });

@@ -8,7 +8,8 @@
 
 namespace oriel {
 
-// What a page's light is made of. light: by group and page, as many pages of each group, whose sum is the page's.
+// What a page's light is made of, but for sharp light. light: by group and page, as many pages of each group, whose sum
+// is the page's.
 PageGroups groups_of_page(const LightmapPage& page, std::uint32_t number,
                           std::span<const std::vector<LightmapPage>> light);
 
