@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "formats/core/half.h"
 #include "formats/query/group_light.h"
 
 namespace oriel::testing {
@@ -272,6 +273,41 @@ void add_tiny_groups(Pack& pack) {
   pack.day = {"2026-06-21", 52.5f, 13.5f, -30, false, 2, 12, 8, {night, morning}};
 }
 
+// A second page, two lamps that reach it, and records of each kind.
+void add_tiny_sharp_light(Pack& pack) {
+  LightmapPage page;
+  page.width = 4, page.height = 2;
+  page.sharp_at = {0, 1, 6, 10, 15, 15, 0, 1};
+  page.standard_error.assign(8, Vec3(0.5f));
+  page.state.assign(8, TexelState::kValid);
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    page.sharp.push_back(page.sharp_at[i] == 0 ? Vec3(0) : Vec3(400, 30, 2) * static_cast<float>(i));
+    page.irradiance.push_back(page.sharp[i] + Vec3(0.03f, 7, 90));
+  }
+  pack.lightmaps.push_back(page);
+  SharpLight& light = pack.sharp_light;
+  SharpLamp spot, sun;
+  spot.position = {0.5f, 2, 0.5f};
+  spot.direction = {0, -1, 0};
+  spot.intensity = {10, 20, 30};
+  spot.cos_outer = 0.75f, spot.inverse_falloff = 8;
+  sun.sun = true;
+  sun.direction = {0.6f, -0.8f, 0};
+  sun.intensity = {90000, 80000, 70000};
+  sun.angular_radius_rad = 0.0047f;
+  light.lamps = {spot, sun};
+  light.triangles = {{Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(1, 1, 1)}, {Vec3(0, 1, 0), Vec3(1, 1, 1), Vec3(0, 1, 1)}};
+  const std::uint32_t first = 3u << kSharpEdgeShift, second = 6u << kSharpEdgeShift | 1;
+  const auto spot_code = [](bool tinted, std::uint32_t count) { return SharpShine{0, tinted, count}.code(); };
+  for (const auto& record : std::initializer_list<std::vector<std::uint32_t>>{
+           {0},
+           {1, spot_code(true, 2), rgb9e5_from_rgb({1, 0.5f, 0.25f}), first, second},
+           {2, SharpShine{1, false, 0}.code(), spot_code(false, 1), second},
+           {kSharpSplit, 1, 0, 6, 1},
+           {kSharpSplit, 10, 6, 0, 1}})
+    light.words.insert(light.words.end(), record.begin(), record.end());
+}
+
 }  // namespace
 
 Pack tiny_mapped_pack() {
@@ -340,6 +376,7 @@ Pack tiny_mapped_pack() {
   pack.movers = {tiny_mover()};
   pack.light_field = tiny_field();
   add_tiny_groups(pack);
+  add_tiny_sharp_light(pack);
   return pack;
 }
 

@@ -67,7 +67,7 @@ TEST(Report, ShowsAllThatAPackHolds) {
                            "Reflectances",
                            "<polyline",
                            "<h2>Sizes</h2>",
-                           "lightmap page (1)",
+                           "lightmap page (2)",
                            "options.seed"})
     EXPECT_THAT(html, HasSubstr(text));
   const Pack pack = full_pack();

@@ -140,7 +140,9 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["day"]["clock"], "UTC+02:00");
   EXPECT_EQ(json["day"]["hours"][0]["group"], nullptr);
   EXPECT_EQ(json["day"]["hours"][1]["group"], 1);
-  EXPECT_EQ(json["sections"].size(), 35u);
+  EXPECT_EQ(json["sections"].size(), 37u);
+  EXPECT_EQ(json["sharp_light"]["lamps"], 2);
+  EXPECT_EQ(json["sharp_light"]["texels"], 6);
   EXPECT_EQ(json["frosted_panes"][0]["name"], "screen");
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
@@ -163,7 +165,7 @@ TEST_F(Inspect, DamageNamesEverySection) {
   EXPECT_NE(text.out.find("error 1: section MESH (mesh): checksum "), std::string::npos) << text.out;
   const auto json = Json::parse(run("validate --json " + pack_.string()).out).value();
   EXPECT_EQ(json["valid"], false);
-  EXPECT_EQ(json["issues"].size(), 2u);
+  EXPECT_EQ(json["issues"].size(), 3u);  // of both pages
   for (const char* command : {"info", "extract -o x"}) {
     const Outcome refused = run(std::string(command) + " " + pack_.string());
     EXPECT_EQ(refused.code, 3) << command;
@@ -244,7 +246,7 @@ TEST_F(Inspect, ExtractsOneKind) {
   ASSERT_EQ(run("extract --kind lightmap -o " + to.string() + " " + pack_.string()).code, 0);
   EXPECT_TRUE(std::filesystem::exists(to / "lightmap_000.exr"));
   EXPECT_FALSE(std::filesystem::exists(to / "brdf_kernel_00.exr"));
-  EXPECT_EQ(Json::parse(slurp(to / "index.json")).value()["entries"].size(), 1u);
+  EXPECT_EQ(Json::parse(slurp(to / "index.json")).value()["entries"].size(), 2u);
 }
 
 TEST_F(Inspect, ReportsAndExports) {

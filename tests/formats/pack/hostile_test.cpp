@@ -185,7 +185,7 @@ TEST(Hostile, HalvesThatAreNotFinite) {
 
 TEST(Hostile, DirectionsAndNormalMapping) {
   const std::string page = "section LMAP 0 (lightmap page): element 0: ";
-  expect_refusal(with_raw(kLightmapSection, 8, 2u), page + "found lightmap flags 0x2");
+  expect_refusal(with_raw(kLightmapSection, 8, 4u), page + "found lightmap flags 0x4");
   const std::size_t directions = 24 + 6 * 32;
   expect_refusal(with_raw(kLightmapSection, directions + 32, std::uint8_t{0xfc}), page + "found direction half 0xfc");
   const Mesh mesh = tiny_mapped_pack().mesh;
@@ -280,7 +280,7 @@ TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   });
   const auto pack = decode_pack(forge.file());
   ASSERT_TRUE(pack) << pack.error().text();
-  EXPECT_EQ(pack->lightmaps[0].direction.size(), 32u);
+  EXPECT_EQ(pack->lightmaps[1].direction.size(), 32u);  // their order is their number
   EXPECT_EQ(pack->materials[1].normal_texture, 0);
   EXPECT_EQ(pack->kernels[1].slices.size(), 2u);
   EXPECT_EQ(pack->kernels[1].fits.size(), 2u);

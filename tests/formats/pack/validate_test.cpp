@@ -33,7 +33,7 @@ const Break kBreaks[] = {
     {107, "MESH", [](Pack& p) { p.mesh.parts[0].index_count = 5; }},
     {108, "MESH", [](Pack& p) { p.mesh.parts[1].index_count = 0xfffffffcu; }},
     {109, "MESH", [](Pack& p) { p.mesh.parts[1].material = 2; }},
-    {110, "MESH", [](Pack& p) { p.mesh.parts[1].lightmap_page = 1; }},
+    {110, "MESH", [](Pack& p) { p.mesh.parts[1].lightmap_page = 2; }},
     {110, "MESH", [](Pack& p) { p.mesh.parts[1].lightmap_page = -2; }},
     {101, "MESH", [](Pack& p) { p.mesh.tangents.pop_back(); }},
     {105, "MESH", [](Pack& p) { p.mesh.normal_uvs[0].y = kInf; }},
@@ -75,6 +75,42 @@ const Break kBreaks[] = {
     {306, "LMAP 0",
      [](Pack& p) {
        p.lightmaps[0].cell[15] = DetailBlock{0, 0, 1}.code();
+     }},
+    {309, "LMAP 1", [](Pack& p) { p.lightmaps[1].sharp.pop_back(); }},
+    {309, "LMAP 1", [](Pack& p) { p.lightmaps[1].sharp_at.clear(); }},
+    {309, "LMAP 1", [](Pack& p) { p.lightmaps[1].sharp[3].g = -1; }},
+    {309, "LMAP 1", [](Pack& p) { p.lightmaps[1].sharp[3].b = kNan; }},
+    {309, "LMAP 1", [](Pack& p) { p.lightmaps[1].sharp[3].b = 100; }},
+    {310, "LMAP 1", [](Pack& p) { p.lightmaps[1].sharp_at[0] = 2; }},
+    {310, "LMAP 1", [](Pack& p) { p.lightmaps[1].sharp_at[7] = 20; }},
+    {310, "LMAP 1", [](Pack& p) { p.sharp_light = {}; }},
+    {310, "LMAP 1", [](Pack& p) { p.sharp_light.words[7] = 2; }},
+    {311, "SHRP", [](Pack& p) { p.sharp_light.lamps.resize(1025, p.sharp_light.lamps[0]); }},
+    {311, "SHRP", [](Pack& p) { p.sharp_light.lamps.clear(); }},
+    {311, "SHRP", [](Pack& p) { p.sharp_light.words.clear(); }},
+    {312, "SHRP", [](Pack& p) { p.sharp_light.lamps[0].position.x = kNan; }},
+    {312, "SHRP", [](Pack& p) { p.sharp_light.lamps[0].direction *= 2; }},
+    {312, "SHRP", [](Pack& p) { p.sharp_light.lamps[0].intensity.r = -1; }},
+    {312, "SHRP", [](Pack& p) { p.sharp_light.lamps[0].cos_outer = kNan; }},
+    {312, "SHRP", [](Pack& p) { p.sharp_light.lamps[0].inverse_falloff = 0; }},
+    {312, "SHRP", [](Pack& p) { p.sharp_light.lamps[0].inverse_falloff = kInf; }},
+    {312, "SHRP", [](Pack& p) { p.sharp_light.lamps[1].angular_radius_rad = kPi / 2; }},
+    {312, "SHRP", [](Pack& p) { p.sharp_light.lamps[1].light_group = 2; }},
+    {313, "SHRP", [](Pack& p) { p.sharp_light.triangles[1][2].y = kInf; }},
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words[0] = 1; }},
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words[2] = SharpShine{2, true, 2}.code(); }},
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words[2] = SharpShine{0, true, 0x1fffff}.code(); }},
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words[5] = 2; }},
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words[6] = 3; }},    // lamps
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words[11] = 10; }},  // itself
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words[11] = 15; }},  // behind it
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words[11] = 2; }},   // inside a record
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words.pop_back(); }},
+    {314, "SHRP", [](Pack& p) { p.sharp_light.words.push_back(1); }},
+    {314, "SHRP",
+     [](Pack& p) {
+       for (std::uint32_t below = 15; below < 35; below += 5)  // two splits and four
+         p.sharp_light.words.insert(p.sharp_light.words.end(), {kSharpSplit, below, 0, 0, 0});
      }},
     {401, "RFLT", [](Pack& p) { p.reflectors[0].material = 9; }},
     {402, "RFLT", [](Pack& p) { p.reflectors[0].pack_from_reflector[0] *= 1.1f; }},
@@ -229,7 +265,7 @@ const Break kBreaks[] = {
     {764, "LGRP", [](Pack& p) { p.light_groups[1].probes.pop_back(); }},
     {764, "LGRP", [](Pack& p) { p.light_groups[1].reflectors[0].g = 1.5f; }},
     {764, "LGRP", [](Pack& p) { p.light_groups[1].surrounds.clear(); }},
-    {765, "GLMP 0", [](Pack& p) { p.page_groups[0].page = 1; }},
+    {765, "GLMP 0", [](Pack& p) { p.page_groups[0].page = 2; }},
     {765, "GLMP 0", [](Pack& p) { p.page_groups[0].others[0].group = 2; }},
     {765, "GLMP 1", [](Pack& p) { p.page_groups.push_back(p.page_groups[0]); }},
     {766, "GLMP 0", [](Pack& p) { p.page_groups[0].width = 4; }},
