@@ -8,6 +8,7 @@
 #include "formats/core/color.h"
 #include "formats/core/json.h"
 #include "formats/core/result.h"
+#include "formats/query/sharp_light.h"
 
 namespace oriel {
 namespace {
@@ -85,8 +86,8 @@ double mean_lux(const LightmapPage& page) {
   return count > 0 ? sum / count : 0;
 }
 
-void read_texel(const Mesh& mesh, const Nearest& n, const LightmapPage& page, Why& why) {
-  const TexelPoint p = texel_point(mesh, n, page);
+void read_texel(const Pack& pack, const Nearest& n, const LightmapPage& page, Why& why) {
+  const TexelPoint p = texel_point(pack.mesh, n, page);
   const IVec2 size(page.width, page.height);
   why.texel = glm::clamp(IVec2(glm::floor(p.uv * Vec2(size))), IVec2(0), size - 1);
   const auto i = static_cast<std::size_t>(why.texel.y) * page.width + static_cast<std::size_t>(why.texel.x);
@@ -94,6 +95,8 @@ void read_texel(const Mesh& mesh, const Nearest& n, const LightmapPage& page, Wh
   why.side_m = p.side_m;
   why.lux = luminance(page.irradiance[i]);
   why.lux_error = luminance(page.standard_error[i]);
+  if (!page.sharp_at.empty() && page.sharp_at[i] != 0)
+    why.sharp_lux = luminance(sharp_irradiance(pack.sharp_light, page, p.uv, n.at, why.normal));
   why.dark = why.lux <= kDarkPlace * mean_lux(page);
 }
 
@@ -304,7 +307,7 @@ std::optional<Why> why_at(const Pack& pack, const MeshRays& rays, const Vec3& pl
     return why;
   }
   const LightmapPage* page = page_of(static_cast<std::uint32_t>(why.page));
-  if (page != nullptr) read_texel(pack.mesh, *nearest, *page, why);
+  if (page != nullptr) read_texel(pack, *nearest, *page, why);
   const float eps = kSamePlace_m + 1e-6f * glm::length(nearest->at);
   const SeenPoint point{nearest->at + eps * why.normal, why.normal, eps};
   add_coincident(pack, *nearest, *own, why);

@@ -55,8 +55,9 @@ struct Why {
   TexelState state = TexelState::kEmpty;
   float side_m = 0;  // of the texel, on the surface
   double lux = 0, lux_error = 0;
-  bool dark = false;            // less than a thousandth of its page's mean
-  std::vector<Reason> reasons;  // those that weigh most first; never empty where it is dark
+  std::optional<double> sharp_lux{};  // of lamps that shine by the pixel: at this very place, whatever its texel has
+  bool dark = false;                  // less than a thousandth of its page's mean
+  std::vector<Reason> reasons;        // those that weigh most first; never empty where it is dark
   std::vector<LightVerdict> lights;
   std::size_t lights_left_out = 0;  // beyond the first ones
   float near_share = 0;             // of what it sees that is nearer than a texel, and what that is

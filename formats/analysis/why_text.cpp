@@ -47,6 +47,8 @@ std::string why_text(const Why& why) {
   if (why.page >= 0)
     text += fmt::format("{:.4g} lux, standard error {:.2g} lux: texel {}, {} of page {}, {:.1f} cm wide, {}\n", why.lux,
                         why.lux_error, why.texel.x, why.texel.y, why.page, 100 * why.side_m, name_of(why.state));
+  if (why.sharp_lux)
+    text += fmt::format("sharp   {:.4g} lux of lamps come by the pixel to this very place\n", *why.sharp_lux);
   for (const Reason& reason : why.reasons)
     text += fmt::format("why     {}: {}\n        to do: {}\n", name_of(reason.cause), reason.text, reason.fix);
   for (std::size_t i = 0; i < std::min(kShownLights, why.lights.size()); ++i)
@@ -84,6 +86,7 @@ std::string why_json(const Why& why) {
                      {"state", name_of(why.state)},
                      {"lux", why.lux},
                      {"lux_standard_error", why.lux_error},
+                     {"sharp_lux", why.sharp_lux ? Json(*why.sharp_lux) : Json()},
                      {"dark", why.dark},
                      {"reasons", reasons},
                      {"lights", lights},

@@ -7,6 +7,7 @@
 #include "formats/core/json.h"
 #include "formats/export/summary.h"
 #include "formats/inspect/commands.h"
+#include "formats/inspect/info_lightmaps.h"
 #include "formats/inspect/info_reflections.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
@@ -53,23 +54,6 @@ Json mesh_json(const Mesh& mesh) {
           {"lower", triple(bounds.lower)},
           {"upper", triple(bounds.upper)},
           {"parts", parts}};
-}
-
-Json lightmaps_json(const Pack& pack) {
-  Json out = Json::array();
-  for (const auto& page : pack.lightmaps) {
-    const auto s = summarise(page);
-    out.push_back(
-        {{"width", page.width},
-         {"height", page.height},
-         {"texels",
-          {{"empty", s.states[0]}, {"dilated", s.states[1]}, {"buried", s.states[2]}, {"valid", s.states[3]}}},
-         {"lux", {{"min", s.min_lux}, {"mean", s.mean_lux}, {"max", s.max_lux}}},
-         {"relative_standard_error", s.error},
-         {"directional", !page.direction.empty()},
-         {"mean_direction_length", s.mean_direction}});
-  }
-  return out;
 }
 
 Json movers_json(const Pack& pack) {
@@ -241,7 +225,7 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["mesh"] = mesh_json(pack.mesh);
   out["sky"] = triple(pack.sky);
   out["materials"] = materials_json(pack);
-  out["lightmaps"] = lightmaps_json(pack);
+  add_lightmaps(index, pack, out);
   add_reflections(index, pack, out);
   out["visible_sets"] = visible_sets_json(pack);
   out["movers"] = movers_json(pack);
@@ -298,15 +282,7 @@ void print_material_maps(const Pack& pack) {
 }
 
 void print_maps(const PackIndex& index, const Pack& pack) {
-  for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
-    const auto& page = pack.lightmaps[i];
-    const auto s = summarise(page);
-    fmt::print(
-        "lightmap {}: {} x {}, {} valid texels, {:.4g} to {:.4g} lux, mean {:.4g}, noise of texels, seen or not, "
-        "{:.2g} %{}\n",
-        i, page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error,
-        page.direction.empty() ? "" : fmt::format(", directional (mean |d| {:.3g})", s.mean_direction));
-  }
+  print_lightmaps(index, pack);
   print_reflections(index, pack);
   print_material_maps(pack);
 }

@@ -211,5 +211,24 @@ TEST_F(WhyTest, DarkTexelsAlwaysHaveAReason) {
   EXPECT_EQ(why_->reasons[0].cause, Cause::kIndirect);
 }
 
+TEST_F(WhyTest, TellsOfSharpLightAtThePlace) {
+  add_floor();
+  SharpLamp sun;
+  sun.sun = true;
+  sun.direction = {0, -1, 0};
+  sun.intensity = Vec3(70);
+  pack_.sharp_light.lamps = {sun};
+  const std::uint32_t edges = 7u << kSharpEdgeShift;
+  pack_.sharp_light.words = {0, 1, SharpShine{0, false, 1}.code(), edges};
+  pack_.sharp_light.triangles = {{Vec3(-3, 1, 3), Vec3(-3, 1, 1.7f), Vec3(3, 1, 1.7f)}};
+  LightmapPage& page = pack_.lightmaps[0];
+  page.sharp.assign(64, Vec3(50)), page.sharp_at.assign(64, 1);
+  page.sharp_at[63] = 0;
+  EXPECT_NEAR(why_at(pack_, {-1.8f, 0, 1.6f})->sharp_lux.value(), 70, 1e-3);
+  EXPECT_EQ(why_at(pack_, {-1.8f, 0, 1.8f})->sharp_lux, 0);
+  EXPECT_FALSE(why_at(pack_, {1.9f, 0, -1.9f})->sharp_lux);
+  EXPECT_NE(why_text(*why_at(pack_, {-1.8f, 0, 1.6f})).find("sharp   70 lux"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace oriel
