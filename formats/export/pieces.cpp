@@ -47,9 +47,11 @@ class PieceWriter {
   std::vector<Section> sections_;
 };
 
-// What lights surfaces: who walks asks for no standard errors, and zeros take no room.
+// What lights surfaces: who walks asks for no standard errors and no texels of sharp light, and zeros take no room.
 LightmapPage without_errors(const LightmapPage& page) {
   LightmapPage out = page;
+  out.irradiance = without_sharp(page);
+  std::fill(out.sharp.begin(), out.sharp.end(), Vec3(0));
   std::fill(out.standard_error.begin(), out.standard_error.end(), Vec3(0));
   std::fill(out.state.begin(), out.state.end(), TexelState::kValid);
   return out;
@@ -132,6 +134,8 @@ std::vector<std::string> left_out_of_pieces(const Pack& pack) {
 Status make_pieces(const Pack& pack, const std::function<Status(WebPiece)>& take) {
   ORIEL_TRY(Bytes scene, scene_piece(pack));
   ORIEL_TRY_VOID(take({"scene", 0, std::move(scene)}));
+  if (!pack.sharp_light.empty())
+    ORIEL_TRY_VOID(each("sharp", kSharpLightSection, std::vector<SharpLight>{pack.sharp_light}, take));
   std::vector<LightmapPage> pages;
   for (const LightmapPage& page : pack.lightmaps) pages.push_back(without_errors(page));
   ORIEL_TRY_VOID(each("light", kLightmapSection, pages, take));
