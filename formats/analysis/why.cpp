@@ -96,7 +96,7 @@ void read_texel(const Pack& pack, const Nearest& n, const LightmapPage& page, Wh
   why.lux = luminance(page.irradiance[i]);
   why.lux_error = luminance(page.standard_error[i]);
   if (!page.sharp_at.empty() && page.sharp_at[i] != 0)
-    why.sharp_lux = luminance(sharp_irradiance(pack.sharp_light, page, p.uv, n.at, why.normal));
+    why.sharp_lux = luminance(sharp_irradiance(pack.sharp_light, page, {p.uv, n.at, why.normal}));
   why.dark = why.lux <= kDarkPlace * mean_lux(page);
 }
 

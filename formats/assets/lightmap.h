@@ -76,21 +76,18 @@ inline std::vector<Vec3> without_sharp(const LightmapPage& page) {
 
 namespace lightmap_detail {
 
-inline Vec3 bilinear(const std::vector<Vec3>& light, std::uint32_t width, std::size_t first, std::uint32_t right,
-                     std::uint32_t down, const Vec2& f) {
-  const std::size_t below = first + std::size_t{down} * width;
-  return glm::mix(glm::mix(light[first], light[first + right], f.x), glm::mix(light[below], light[below + right], f.x),
-                  f.y);
-}
-
-// A place between texels' centres. The last cell's end is its own: beyond it there is none.
+// A place between texels' centres, or between points of details. The last cell's end is its own: beyond it there is
+// none.
 struct CellPlace {
   std::size_t texel = 0;  // at the cell's lower corner
   Vec2 within{0};
-  std::uint32_t right = 0, down = 0;  // to the next texels
+  std::uint32_t right = 1, down = 1;  // to the next texels
 
-  Vec3 of(const LightmapPage& page, const std::vector<Vec3>& light) const {
-    return bilinear(light, page.width, texel, right, down, within);
+  // Of an image of that width: bilinear.
+  Vec3 of(const std::vector<Vec3>& light, std::uint32_t width) const {
+    const std::size_t below = texel + std::size_t{down} * width;
+    return glm::mix(glm::mix(light[texel], light[texel + right], within.x),
+                    glm::mix(light[below], light[below + right], within.x), within.y);
   }
 };
 
@@ -105,15 +102,15 @@ inline CellPlace cell_place(const LightmapPage& page, const Vec2& uv) {
 
 inline Vec3 smooth_at(const LightmapPage& page, const CellPlace& at) {
   if (page.cell.empty() || page.cell[at.texel] == 0) {
-    const Vec3 light = at.of(page, page.irradiance);
-    return page.sharp.empty() ? light : glm::max(light - at.of(page, page.sharp), Vec3(0));
+    const Vec3 light = at.of(page.irradiance, page.width);
+    return page.sharp.empty() ? light : glm::max(light - at.of(page.sharp, page.width), Vec3(0));
   }
   const DetailBlock block = DetailBlock::of(page.cell[at.texel]);
   const Vec2 in = at.within * static_cast<float>(block.side());
   const auto px = std::min(static_cast<std::uint32_t>(in.x), block.side() - 1);
   const auto py = std::min(static_cast<std::uint32_t>(in.y), block.side() - 1);
-  return bilinear(page.detail, page.detail_width, std::size_t{block.y + py} * page.detail_width + block.x + px, 1, 1,
-                  in - Vec2(px, py));
+  const CellPlace point{std::size_t{block.y + py} * page.detail_width + block.x + px, in - Vec2(px, py)};
+  return point.of(page.detail, page.detail_width);
 }
 
 }  // namespace lightmap_detail
@@ -126,7 +123,7 @@ inline Vec3 smooth_irradiance_at(const LightmapPage& page, const Vec2& uv) {
 inline Vec3 irradiance_at(const LightmapPage& page, const Vec2& uv) {
   const lightmap_detail::CellPlace at = lightmap_detail::cell_place(page, uv);
   const Vec3 light = lightmap_detail::smooth_at(page, at);
-  return page.sharp.empty() ? light : light + at.of(page, page.sharp);
+  return page.sharp.empty() ? light : light + at.of(page.sharp, page.width);
 }
 
 // E(n) / E(g): how the irradiance at a texel changes when its normal g is tilted to n (both unit). d is read as an even

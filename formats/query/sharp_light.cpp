@@ -124,10 +124,10 @@ std::uint32_t record_at(const SharpLight& light, const LightmapPage& page, const
 
 }  // namespace
 
-Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const Vec2& uv, const Vec3& p,
-                      const Vec3& normal, std::span<const Vec3> factors) {
+Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const SharpPlace& at,
+                      std::span<const Vec3> factors) {
   if (page.sharp_at.empty()) return Vec3(0);
-  const std::uint32_t place = record_at(light, page, uv);
+  const std::uint32_t place = record_at(light, page, at.uv);
   if (place == 0) return Vec3(0);
   std::span<const std::uint32_t> words = std::span(light.words).subspan(place + 1);
   Vec3 sum(0);
@@ -135,9 +135,9 @@ Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const V
     const SharpShine shine = SharpShine::of(words[0]);
     const Vec3 tint = shine.tinted ? rgb_from_rgb9e5(words[1]) : Vec3(1);
     words = words.subspan(shine.tinted ? 2 : 1);
-    const ShiningLamp lamp = shining(light.lamps[shine.lamp], p, normal, factors);
+    const ShiningLamp lamp = shining(light.lamps[shine.lamp], at.position, at.normal, factors);
     if (max_component(lamp.light) > 0)
-      sum += lamp.light * tint * visible_share(light, lamp, words.first(shine.count), p);
+      sum += lamp.light * tint * visible_share(light, lamp, words.first(shine.count), at.position);
     words = words.subspan(shine.count);
   }
   return sum;

@@ -8,9 +8,15 @@
 
 namespace oriel {
 
-// lux at a place of a page (uv in [0,1]) that sharp light brings there. Both are as validate() wants them. p: pack
-// space; normal: unit; factors: by light group, how many times lamps shine (empty: once).
-Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const Vec2& uv, const Vec3& p,
-                      const Vec3& normal, std::span<const Vec3> factors = {});
+// A place of a page, uv in [0,1], and the surface there: pack space; normal: unit.
+struct SharpPlace {
+  Vec2 uv{0};
+  Vec3 position{0}, normal{0, 1, 0};
+};
+
+// lux that sharp light brings to a place of a page. Both are as validate() wants them. factors: by light group, how
+// many times lamps shine (empty: once).
+Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const SharpPlace& at,
+                      std::span<const Vec3> factors = {});
 
 }  // namespace oriel

@@ -39,7 +39,7 @@ struct Lit {
     page.sharp_at = {1};
   }
   Vec3 at(const Vec3& p, const Vec2& uv = Vec2(0.5f), std::span<const Vec3> factors = {}) const {
-    return sharp_irradiance(light, page, uv, p, kUp, factors);
+    return sharp_irradiance(light, page, {uv, p, kUp}, factors);
   }
 };
 
