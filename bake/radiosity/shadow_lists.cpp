@@ -9,6 +9,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/shadow_casters.h"
 #include "bake/trace/punctual.h"
+#include "formats/assets/light_field.h"
 #include "formats/core/half.h"
 
 namespace oriel {
@@ -57,12 +58,13 @@ using TileRecords = std::vector<std::shared_ptr<const Record>>;
 
 class TileLister {
  public:
-  TileLister(const LightmapScene& scene, const ShadowCasters& casters, std::uint32_t chart_number,
-             const std::vector<std::uint32_t>& chart_at, std::uint64_t& rays)
+  TileLister(const LightmapScene& scene, const SharpCharts& sharp, const ShadowCasters& casters,
+             std::uint32_t chart_number, const std::vector<std::uint32_t>& chart_at, std::uint64_t& rays)
       : scene_(scene),
+        sharp_(sharp),
         casters_(casters),
         chart_number_(chart_number),
-        chart_(scene.sharp->charts[chart_number]),
+        chart_(sharp.charts[chart_number]),
         chart_at_(chart_at),
         level_(kLevel * double{scene.transport.accel.scene().radius()}),
         rays_(rays) {}
@@ -71,7 +73,7 @@ class TileLister {
     TileRecords records(std::size_t{kTile} * kTile);
     const Square tile{DVec2(lower), kTile};
     std::vector<Unsettled> lamps;
-    for (std::uint32_t lamp = 0; lamp < scene_.sharp->lights.size(); ++lamp) {
+    for (std::uint32_t lamp = 0; lamp < sharp_.lights.size(); ++lamp) {
       const ShadowBeam beam = beam_to(lamp, tile);
       if (!beam.faces_lamp() || is_beyond_cone(lamp, tile)) continue;
       lamps.push_back({lamp, casters_.in(beam)});
@@ -90,7 +92,7 @@ class TileLister {
   };
 
   const oriel::Light& light_of(std::uint32_t lamp) const {
-    return scene_.transport.accel.scene().lights[scene_.sharp->lights[lamp]];
+    return scene_.transport.accel.scene().lights[sharp_.lights[lamp]];
   }
 
   ShadowBeam beam_to(std::uint32_t lamp, const Square& s) const {
@@ -262,6 +264,7 @@ class TileLister {
   }
 
   const LightmapScene& scene_;
+  const SharpCharts& sharp_;
   const ShadowCasters& casters_;
   std::uint32_t chart_number_;
   const FlatChart& chart_;
@@ -350,9 +353,8 @@ std::vector<TileOfChart> tiles_of(const SharpCharts& sharp) {
 
 }  // namespace
 
-Result<ShadowLists> list_shadows(const LightmapScene& scene, const Stage& stage) {
+Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp, const Stage& stage) {
   const Scene& of = scene.transport.accel.scene();
-  const SharpCharts& sharp = *scene.sharp;
   const ShadowCasters casters(of);
   const auto charts = charts_at(scene);
   const std::vector<TileOfChart> tiles = tiles_of(sharp);
@@ -360,7 +362,7 @@ Result<ShadowLists> list_shadows(const LightmapScene& scene, const Stage& stage)
   ORIEL_TRY_VOID(parallel_for(stage, "sharp light", tiles.size(), [&](std::size_t i) {
     std::uint64_t rays = 0;
     const std::uint32_t page = sharp.charts[tiles[i].chart].page;
-    listed[i] = TileLister(scene, casters, tiles[i].chart, charts[page], rays).list(tiles[i].lower);
+    listed[i] = TileLister(scene, sharp, casters, tiles[i].chart, charts[page], rays).list(tiles[i].lower);
     stage.count(rays);
   }));
   ShadowLists out;
