@@ -57,8 +57,8 @@ DVec3 read_light(const Scene& scene, std::span<const LightmapPage> pages, const 
   const Vec3 smooth = smooth_irradiance_at(page, uv);
   const DVec3 light(as_half(smooth.r), as_half(smooth.g), as_half(smooth.b));
   if (sharp == nullptr || page.sharp_at.empty()) return light;
-  return light + DVec3(sharp_irradiance(*sharp, page, uv, point_on(scene, pixel.triangle, pixel.barycentric),
-                                        geometric_normal(scene, pixel.triangle)));
+  const SharpPlace at{uv, point_on(scene, pixel.triangle, pixel.barycentric), geometric_normal(scene, pixel.triangle)};
+  return light + DVec3(sharp_irradiance(*sharp, page, at));
 }
 
 std::vector<HeldOutPixel> hold_out(const LightmapScene& scene, std::span<const LightmapPage> pages,

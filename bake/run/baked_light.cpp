@@ -100,9 +100,9 @@ Vec3 BakedScene::irradiance(const TexelPoint& at, const Vec3& tilted, const Vec3
 Vec3 BakedScene::sharp_irradiance_at(const TexelPoint& at, const Vec3& tilted, std::span<const Vec3> factors) const {
   const std::int32_t index = atlas.page[at.triangle];
   if (sharp == nullptr || index < 0 || pages[static_cast<std::size_t>(index)].sharp_at.empty()) return Vec3(0);
-  const Vec3 place = point_on(accel.scene(), at.triangle, at.barycentric);
-  return sharp_irradiance(*sharp, pages[static_cast<std::size_t>(index)], uv_at(atlas, at.triangle, at.barycentric),
-                          place, tilted, factors);
+  const SharpPlace place{uv_at(atlas, at.triangle, at.barycentric),
+                         point_on(accel.scene(), at.triangle, at.barycentric), tilted};
+  return sharp_irradiance(*sharp, pages[static_cast<std::size_t>(index)], place, factors);
 }
 
 Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {

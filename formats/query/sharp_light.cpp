@@ -64,7 +64,18 @@ float covered_by(const SeenEdges& edges, const Vec3& towards) {
   return in_all;
 }
 
-// covered: by share of the disk.
+// By share of a sun's disk. Pieces of one surface add up where they meet; what faces the lamp and what turns from it,
+// as the two sides of a body do, cover the same.
+struct CoveredDisk {
+  std::array<std::array<float, kShares>, 2> by_facing{};
+
+  float mean() const {
+    float sum = 0;
+    for (std::size_t i = 0; i < kShares; ++i) sum += std::min(std::max(by_facing[0][i], by_facing[1][i]), 1.0f);
+    return sum / kShares;
+  }
+};
+
 void cover_disk(const SeenEdges& edges, const ShiningLamp& lamp, std::array<float, kShares>& covered) {
   const Vec3& to = lamp.towards;
   const Vec3 u = glm::normalize(std::abs(to.x) < 0.7f ? Vec3(0, to.z, -to.y) : Vec3(-to.z, 0, to.x));
@@ -78,14 +89,14 @@ void cover_disk(const SeenEdges& edges, const ShiningLamp& lamp, std::array<floa
       in_all[i] =
           std::min(in_all[i], edge.inside(sine + slope.x * kDiskX[i] + slope.y * kDiskY[i], kDiskStep * lamp.spread));
   }
-  for (std::size_t i = 0; i < kShares; ++i) covered[i] = std::max(covered[i], in_all[i]);
+  for (std::size_t i = 0; i < kShares; ++i) covered[i] += in_all[i];
 }
 
 // How much of a lamp those triangles leave.
 float visible_share(const SharpLight& light, const ShiningLamp& lamp, std::span<const std::uint32_t> words,
                     const Vec3& p) {
   float covered = 0;
-  std::array<float, kShares> covered_disk{};
+  CoveredDisk disk;
   for (const std::uint32_t word : words) {
     const auto& corners = light.triangles[word & ((1u << kSharpEdgeShift) - 1)];
     const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p, normal = glm::cross(b - a, c - a);
@@ -98,12 +109,11 @@ float visible_share(const SharpLight& light, const ShiningLamp& lamp, std::span<
     const SeenEdges edges = {SeenEdge(a, b, turn, ends(0)), SeenEdge(b, c, turn, ends(1)),
                              SeenEdge(c, a, turn, ends(2))};
     if (lamp.spread > 0)
-      cover_disk(edges, lamp, covered_disk);
+      cover_disk(edges, lamp, disk.by_facing[of_lamp > 0 ? 0 : 1]);
     else if ((covered = std::max(covered, covered_by(edges, lamp.towards))) >= 1)
       return 0;
   }
-  for (const float share : covered_disk) covered += share / kShares;
-  return 1 - covered;
+  return 1 - (lamp.spread > 0 ? disk.mean() : covered);
 }
 
 // Where in `words` the record of that place begins; 0: there is none.

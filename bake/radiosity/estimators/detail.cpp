@@ -225,7 +225,8 @@ class DetailMaker {
   // Counted apart from the refinement of texels, which may go on.
   std::atomic<std::uint64_t> rays_{0}, quick_rays_{0};
   const RadiosityTask own_{
-      task_, task_.pixels, task_.options, task_.context, {task_.context, &rays_}, {task_.context, &quick_rays_}};
+      task_,      task_.pixels, task_.options, task_.context, {task_.context, &rays_}, {task_.context, &quick_rays_},
+      task_.sharp};
   std::array<std::unique_ptr<PointLight>, kDetailLevels> points_;
   std::vector<LevelGrid> grids_;            // by page, of the first pass
   std::vector<std::vector<char>> gathers_;  // by page and place: cells whose points gather light
