@@ -92,6 +92,14 @@ void halve(HalfPage& page) {
   page.direction = std::move(direction);
 }
 
+TextureData unsigned_ints(std::uint32_t width, std::uint32_t height, std::vector<std::uint32_t> texels) {
+  TextureData out;
+  out.format = gpu::kR32ui;
+  out.width = static_cast<int>(width), out.height = static_cast<int>(height);
+  out.add({0, 0, 0, out.width, out.height}, std::move(texels));
+  return out;
+}
+
 TextureData half_floats(std::uint32_t width, std::uint32_t height, std::vector<Half4> texels) {
   TextureData out;
   out.format = gpu::kRgba16f;
@@ -118,16 +126,19 @@ TextureData color_texture_data(const Texture& texture, std::span<const Material>
 
 HalfPage half_page(const LightmapPage& page) {
   HalfPage out{page.width, page.height, 0, {}, halves_of(page.direction)};
+  std::vector<Vec3> smooth = page.irradiance;
+  for (std::size_t i = 0; i < page.sharp.size(); ++i) smooth[i] = glm::max(smooth[i] - page.sharp[i], Vec3(0));
   float brightest = 0;
-  for (const std::vector<Vec3>* light : {&page.irradiance, &page.detail})
-    for (const Vec3& e : *light)
+  for (const std::span<const Vec3> light : {std::span<const Vec3>(smooth), std::span<const Vec3>(page.detail)})
+    for (const Vec3& e : light)
       if (is_finite(e)) brightest = std::max(brightest, max_component(e));
   if (brightest > 0) out.scale = std::ldexp(1.0f, std::max(std::ilogb(brightest) - 14, -120));
   const float inverse = out.scale > 0 ? 1 / out.scale : 0.0f;
-  out.light.reserve(page.irradiance.size());
-  for (const Vec3& e : page.irradiance) out.light.push_back(halves_of(e, inverse));
+  out.light.reserve(smooth.size());
+  for (const Vec3& e : smooth) out.light.push_back(halves_of(e, inverse));
   out.cell = page.cell, out.detail_width = page.detail_width, out.detail_height = page.detail_height;
   for (const Vec3& e : page.detail) out.detail.push_back(halves_of(e, inverse));
+  out.sharp_at = page.sharp_at;
   return out;
 }
 
@@ -192,8 +203,9 @@ PageChange light_of(const HalfPage& page) {
 }
 
 LightData light_data(HalfPage page, int coarser) {
-  for (; coarser > 0 && (page.width > 1 || page.height > 1); --coarser) halve(page);
   LightData out;
+  if (!page.sharp_at.empty()) out.sharp_at = unsigned_ints(page.width, page.height, std::move(page.sharp_at));
+  for (; coarser > 0 && (page.width > 1 || page.height > 1); --coarser) halve(page);
   out.scale = page.scale;
   double sum = 0, count = 0;
   constexpr std::size_t kSome = 4096;  // a mean of some is as good
@@ -205,11 +217,7 @@ LightData light_data(HalfPage page, int coarser) {
   if (!page.direction.empty()) out.direction = half_floats(page.width, page.height, std::move(page.direction));
   if (!page.detail.empty()) {
     out.detail = half_floats(page.detail_width, page.detail_height, std::move(page.detail));
-    TextureData cells;
-    cells.format = gpu::kR32ui;
-    cells.width = static_cast<int>(page.width), cells.height = static_cast<int>(page.height);
-    cells.add({0, 0, 0, cells.width, cells.height}, std::move(page.cell));
-    out.cells = std::move(cells);
+    out.cells = unsigned_ints(page.width, page.height, std::move(page.cell));
   }
   out.light = half_floats(page.width, page.height, std::move(page.light));
   return out;
@@ -223,12 +231,14 @@ std::size_t mipmapped_bytes(const IVec2& size, int coarser) {
   return shape.bytes();
 }
 
-std::size_t light_page_bytes(const IVec2& size, const IVec2& detail, bool directional, int coarser) {
+std::size_t light_page_bytes(const IVec2& size, const IVec2& detail, bool directional, bool sharp, int coarser) {
   TextureData shape;
   shape.format = gpu::kRgba16f;
   shape.width = std::max(1, size.x >> coarser);
   shape.height = std::max(1, size.y >> coarser);
-  const std::size_t plain = shape.bytes() * (directional ? 2 : 1);
+  const std::size_t records =
+      sharp ? std::size_t{4} * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) : 0;
+  const std::size_t plain = shape.bytes() * (directional ? 2 : 1) + records;
   if (coarser > 0 || detail.x == 0) return plain;
   return plain + shape.bytes() / 2 +
          std::size_t{8} * static_cast<std::size_t>(detail.x) * static_cast<std::size_t>(detail.y);

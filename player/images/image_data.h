@@ -19,8 +19,8 @@ TextureData normal_texture_data(const Texture& texture, int coarser = 0);
 // of coarser levels (cutout_mips).
 TextureData color_texture_data(const Texture& texture, std::span<const Material> used_by, int coarser = 0);
 
-// Half floats of irradiance / scale; scale puts the brightest texel in [16384, 32768), so that the relative error stays
-// 2^-11 down to a billionth of it. 0: the page is black.
+// Half floats of irradiance without sharp light, over scale; scale puts the brightest texel in [16384, 32768), so that
+// the relative error stays 2^-11 down to a billionth of it. 0: the page is black.
 HalfPage half_page(const LightmapPage& page);
 // Without mipmaps. A coarser page is means over texels, those without light apart: charts that lie beside each other
 // bleed.
@@ -29,6 +29,8 @@ struct LightData {
   std::optional<TextureData> direction;  // of a directional lightmap
   // Of a page with finer cells, not of a coarser one: LightmapPage::cell as it is, and detail as the light is.
   std::optional<TextureData> cells, detail;
+  // LightmapPage::sharp_at, however coarse the page: shaders find its texels by its own size.
+  std::optional<TextureData> sharp_at;
   float scale = 0;
   float mean_lux = 0;  // luminance over what has light; 0: nothing has
 };
@@ -51,7 +53,7 @@ PageChange light_of(const HalfPage& page);
 
 // On the device, without the data: of a texture with mipmaps, of a page of light.
 std::size_t mipmapped_bytes(const IVec2& size, int coarser);
-// detail: points of its finer cells' image.
-std::size_t light_page_bytes(const IVec2& size, const IVec2& detail, bool directional, int coarser);
+// detail: points of its finer cells' image; sharp: it has LightmapPage::sharp_at.
+std::size_t light_page_bytes(const IVec2& size, const IVec2& detail, bool directional, bool sharp, int coarser);
 
 }  // namespace oriel

@@ -31,7 +31,8 @@ std::size_t PreparedImage::bytes() const {
 
 ImageSource::ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages> deferred,
                          std::vector<std::vector<ReflectorElement>> elements)
-    : pack_(deferred ? nullptr : &pack),
+    : baked_(&pack),
+      pack_(deferred ? nullptr : &pack),
       deferred_(std::move(deferred)),
       elements_(std::move(elements)),
       page_groups_(pack.page_groups),
@@ -46,8 +47,10 @@ ImageSource::ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages>
     pages_.push_back(size_of(page));
     details_.emplace_back(page.detail_width, page.detail_height);
   }
-  for (std::size_t i = 0; i < pack.lightmaps.size(); ++i)
+  for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     directional_.push_back(deferred_ ? deferred_->directional(i) : !pack.lightmaps[i].direction.empty());
+    sharp_.push_back(deferred_ ? !pack.sharp_light.empty() : !pack.lightmaps[i].sharp_at.empty());
+  }
   for (const RadianceMap& map : pack.radiance_maps) maps_.push_back(size_of(map));
   for (const SurroundMap& map : pack.surround_maps) surrounds_.push_back(map.size);
 }
@@ -80,7 +83,8 @@ std::size_t ImageSource::bytes(const ImageName& name, int coarser) const {
     case ImageKind::kNormal:
       return mipmapped_bytes(normal_textures_[name.index], coarser);
     case ImageKind::kLight:
-      return light_page_bytes(pages_[name.index], details_[name.index], directional_[name.index], coarser);
+      return light_page_bytes(pages_[name.index], details_[name.index], directional_[name.index], sharp_[name.index],
+                              coarser);
     case ImageKind::kMaps: {
       std::size_t sum = 0;
       for (const ReflectorElement& element : elements_[name.index]) sum += map_array_bytes(map_sizes(element, coarser));
@@ -133,12 +137,14 @@ Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser, Part
       ORIEL_TRY(HalfPage page, light_of_page(name.index, otherwise(name.index, out.lights)));
       LightData data = light_data(std::move(page), coarser);
       out.textures.push_back(std::move(data.light));
-      out.directional = data.direction.has_value();
+      out.directional = data.direction.has_value(), out.detailed = data.detail.has_value();
+      out.sharp = data.sharp_at.has_value();
       if (data.direction) out.textures.push_back(std::move(*data.direction));
       if (data.detail) {
         out.textures.push_back(std::move(*data.cells));
         out.textures.push_back(std::move(*data.detail));
       }
+      if (data.sharp_at) out.textures.push_back(std::move(*data.sharp_at));
       out.scale = data.scale;
       out.mean_lux = data.mean_lux;
       return out;
@@ -154,6 +160,7 @@ Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser, Part
 void ImageSource::set_lights(std::span<const Vec3> factors, MapFactors of_maps,
                              std::shared_ptr<const PageChanges> changes) {
   const std::scoped_lock lock(lights_->mutex);
+  lights_->now.sharp = of_maps.sharp;
   lights_->of_maps = std::move(of_maps);
   lights_->now.factors.assign(factors.begin(), factors.end());
   lights_->now.added = std::move(changes);
@@ -189,7 +196,7 @@ ImageSource::Otherwise ImageSource::otherwise(std::uint32_t page, std::uint64_t&
 
 ImageSource::Otherwise ImageSource::otherwise(std::uint32_t page, const Shining& now) const {
   Otherwise of;
-  of.factors = now.factors, of.added = now.added;
+  of.factors = now.factors, of.added = now.added, of.sharp = now.sharp;
   const auto groups = std::ranges::find(page_groups_, page, &PageGroups::page);
   const bool as_baked = std::ranges::all_of(of.factors, [](const Vec3& factor) { return factor == Vec3(1); });
   if (groups != page_groups_.end() && !as_baked) of.groups = &*groups;
@@ -217,6 +224,13 @@ Result<PageChange> ImageSource::light_of_group(std::uint32_t page, std::size_t g
   return light_of(relit(*known, *groups, factors));
 }
 
+std::vector<Vec3> ImageSource::sharp_of_group(const LightmapPage& page, std::span<const PagePoint> points,
+                                              std::size_t group) const {
+  std::vector<Vec3> factors(baked_->light_groups.size(), Vec3(0));
+  factors[group] = Vec3(1);
+  return sharp_at_points(baked_->sharp_light, page, points, factors);
+}
+
 Result<LightmapPage> ImageSource::whole_page(std::uint32_t page) const {
   return deferred_ ? deferred_->lightmap(page) : Result<LightmapPage>(pack_->lightmaps[page]);
 }
@@ -232,9 +246,11 @@ Result<LightmapPage> ImageSource::lit_page(std::uint32_t page, std::uint64_t& li
 Result<LightmapPage> ImageSource::make_lit_page(std::uint32_t page, std::uint64_t& lights) const {
   const Otherwise of = otherwise(page, lights);
   ORIEL_TRY(LightmapPage out, whole_page(page));
-  if (!of.groups && !of.change) return out;
+  if (!of.groups && !of.change && of.sharp.empty()) return out;
   ORIEL_TRY(const HalfPage light, light_of_page(page, of));
-  const PageChange now = light_of(light);
+  PageChange now = light_of(light);
+  out.sharp = sharp_texels(baked_->sharp_light, baked_->mesh, page, out, of.sharp);
+  for (std::size_t i = 0; i < out.sharp.size(); ++i) now.light[i] += out.sharp[i];
   for (std::size_t i = 0; i < out.irradiance.size(); ++i) {
     const float baked = luminance(out.irradiance[i]);
     if (baked > 0) out.standard_error[i] *= luminance(now.light[i]) / baked;

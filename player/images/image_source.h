@@ -13,6 +13,7 @@
 #include "player/images/map_array.h"
 #include "player/images/map_choice.h"
 #include "player/images/map_light.h"
+#include "player/images/sharp_texels.h"
 #include "player/images/surround_pyramid.h"
 
 namespace oriel {
@@ -26,10 +27,10 @@ struct ImageName {
 };
 
 struct PreparedImage {
-  std::vector<TextureData>
-      textures;  // light: directions second, cells and details last; maps: light, disparity and ranges of each element
-  float scale = 0, mean_lux = 0;               // of light
-  bool directional = false;                    // likewise
+  std::vector<TextureData> textures;  // light: it, directions, cells and details, sharp_at; maps: light, disparity and
+                                      // ranges of each element
+  float scale = 0, mean_lux = 0;      // of light
+  bool directional = false, detailed = false, sharp = false;  // of light: what of it there is
   std::uint64_t lights = 0;                    // of light and maps: ImageSource::lights() that it was made for
   std::uint64_t geometry = 0;                  // of maps: ImageSource::geometry(), likewise
   std::vector<std::vector<float>> map_scales;  // of maps, by element and layer
@@ -56,6 +57,9 @@ class ImageSource {
   std::uint64_t geometry() const;  // MapFactors::geometry
   // A group's own light of a page, as it was baked. Errors as prepare().
   Result<PageChange> light_of_group(std::uint32_t page, std::size_t group) const;
+  // Its sharp light beside that, of a page as whole_page() has it; by point. Empty: the page has none.
+  std::vector<Vec3> sharp_of_group(const LightmapPage& page, std::span<const PagePoint> points,
+                                   std::size_t group) const;
   // A page with all that the bake knows of its texels, as it was baked.
   Result<LightmapPage> whole_page(std::uint32_t page) const;
   // The same with the irradiance of lamps as they shine now; standard errors keep their share of it. lights: for which.
@@ -88,11 +92,12 @@ class ImageSource {
     std::shared_ptr<const PageChanges> added;
     const PageGroups* groups = nullptr;  // null: the factors change nothing
     const PageChange* change = nullptr;  // null: nothing is added
+    std::vector<Vec3> sharp;             // MapFactors::sharp
   };
   // As lamps shine, at one time.
   struct Shining {
     std::uint64_t changes = 0;
-    std::vector<Vec3> factors;
+    std::vector<Vec3> factors, sharp;  // sharp: MapFactors::sharp
     std::shared_ptr<const PageChanges> added;
   };
   Otherwise otherwise(std::uint32_t page, std::uint64_t& lights) const;
@@ -105,14 +110,16 @@ class ImageSource {
   Result<RadianceMap> radiance_map(std::uint32_t index) const;
   std::vector<IVec2> map_sizes(const ReflectorElement& element, int coarser) const;
   LightOfMaps light_of_maps(PreparedImage& of) const;
+  std::vector<Vec3> sharp_of_page(std::uint32_t page, const HalfPage& light, std::span<const Vec3> factors) const;
   LightOfMaps make_light_of_maps(const Shining& now, const MapFactors& of_maps) const;
-  const Pack* pack_ = nullptr;  // null where images are deferred
+  const Pack* baked_ = nullptr;  // what of it is never deferred
+  const Pack* pack_ = nullptr;   // null where images are deferred
   std::shared_ptr<const DeferredImages> deferred_;
   std::vector<std::vector<ReflectorElement>> elements_;
   std::span<const PageGroups> page_groups_;
   std::vector<std::vector<Material>> users_;  // by texture
   std::vector<IVec2> textures_, normal_textures_, pages_, details_, maps_;
-  std::vector<bool> directional_;  // by page
+  std::vector<bool> directional_, sharp_;  // by page; sharp_: it may be
   std::vector<std::uint32_t> surrounds_;
   // What lamps shine now, and pages as they were baked, once any shines otherwise.
   struct Lights {

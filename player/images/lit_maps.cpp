@@ -34,12 +34,14 @@ bool as_baked(const MapFactors& factors) {
                              [](const std::optional<Vec3>& factor) { return is_one(factor.value_or(Vec3(1))); });
 }
 
-LightmapPage as_lightmap(const HalfPage& page) {
+LightmapPage as_lightmap(const HalfPage& page, std::vector<Vec3> sharp) {
   LightmapPage out;
   out.width = page.width, out.height = page.height;
   out.cell = page.cell, out.detail_width = page.detail_width, out.detail_height = page.detail_height;
   PageChange light = light_of(page);
   out.irradiance = std::move(light.light), out.detail = std::move(light.detail);
+  for (std::size_t i = 0; i < sharp.size(); ++i) out.irradiance[i] += sharp[i];
+  out.sharp = std::move(sharp);
   return out;
 }
 
@@ -71,6 +73,14 @@ std::uint64_t ImageSource::geometry() const {
   return lights_->of_maps.geometry;
 }
 
+std::vector<Vec3> ImageSource::sharp_of_page(std::uint32_t page, const HalfPage& light,
+                                             std::span<const Vec3> factors) const {
+  if (light.sharp_at.empty()) return {};
+  const Result<LightmapPage> whole = whole_page(page);
+  if (!whole) return {};
+  return factors.empty() ? whole->sharp : sharp_texels(baked_->sharp_light, baked_->mesh, page, *whole, factors);
+}
+
 // A page that cannot be read has no texels: what shows it follows on average.
 ImageSource::LightOfMaps ImageSource::make_light_of_maps(const Shining& now, const MapFactors& of_maps) const {
   if (as_baked(of_maps) && std::ranges::all_of(now.factors, is_one) && !now.added) return {};
@@ -78,7 +88,7 @@ ImageSource::LightOfMaps ImageSource::make_light_of_maps(const Shining& now, con
     auto pages = std::make_shared<std::vector<LightmapPage>>();
     for (std::uint32_t p = 0; p < pages_.size(); ++p) {
       const auto page = baked_page(p);
-      pages->push_back(page ? as_lightmap(**page) : LightmapPage());
+      pages->push_back(page ? as_lightmap(**page, sharp_of_page(p, **page, {})) : LightmapPage());
     }
     followed_->baked = std::move(pages);
   }
@@ -88,7 +98,7 @@ ImageSource::LightOfMaps ImageSource::make_light_of_maps(const Shining& now, con
   out->reflectance = map_light_->reflectance();
   for (std::uint32_t p = 0; p < pages_.size(); ++p) {
     const auto page = light_of_page(p, otherwise(p, now));
-    out->now.push_back(page ? as_lightmap(*page) : LightmapPage());
+    out->now.push_back(page ? as_lightmap(*page, sharp_of_page(p, *page, now.sharp)) : LightmapPage());
   }
   return out;
 }

@@ -15,11 +15,13 @@
 namespace oriel {
 
 // How many times what was baked the light is that maps show without the lightmap's telling: by material that shines,
-// its emission; the sky; and on average all that each reflector and each surround map shows. Empty: as baked.
+// its emission; the sky; and on average all that each reflector and each surround map shows; sharp light, which pages
+// do not show either. Empty: as baked.
 struct MapFactors {
   std::vector<std::optional<Vec3>> materials;
   Vec3 sky{1};
   std::vector<Vec3> reflectors, surrounds;
+  std::vector<Vec3> sharp;  // by light group, of SharpLight::lamps; 0: what they give is in pages' changes
   std::vector<std::shared_ptr<const MovedLamp>> moved;
   std::uint64_t geometry = 0;  // another one where lamps are elsewhere; 0: where they were baked
 };

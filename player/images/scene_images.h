@@ -19,6 +19,7 @@ struct LoadedLightmap {
   float scale = 0;
   gpu::Texture2d direction;      // of a directional lightmap, else empty
   gpu::Texture2d cells, detail;  // where it has finer cells, else empty
+  gpu::Texture2d sharp_at;       // where it has sharp light, else empty; its size is the page's as baked
 };
 
 // All maps of a reflector.

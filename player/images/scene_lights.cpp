@@ -4,12 +4,12 @@
 namespace oriel {
 void SceneImages::settle_light(std::uint32_t index, PreparedImage& image, std::vector<TextureUpload>& textures) {
   LoadedLightmap& light = lights_[index];
-  light = {std::move(textures[0].texture), image.scale, {}, {}, {}};
-  if (image.directional) light.direction = std::move(textures[1].texture);
-  if (textures.size() > 2) {
-    light.cells = std::move(textures[textures.size() - 2].texture);
-    light.detail = std::move(textures[textures.size() - 1].texture);
-  }
+  std::size_t next = 0;
+  const auto take = [&](bool there) { return there ? std::move(textures[next++].texture) : gpu::Texture2d(); };
+  light.texture = take(true), light.scale = image.scale;
+  light.direction = take(image.directional);
+  light.cells = take(image.detailed), light.detail = take(image.detailed);
+  light.sharp_at = take(image.sharp);
   if (image.mean_lux > 0) {
     lux_sum_ += static_cast<double>(image.mean_lux);
     some_light_.scale = static_cast<float>(lux_sum_ / static_cast<double>(++lux_count_));

@@ -72,11 +72,11 @@ std::vector<float> red_of(const TextureData& data) {
 TEST(LightData, CoarserPagesAreMeansOfWhatHasLight) {
   const auto light = [](std::uint32_t i) { return i == 0 ? 0.0f : static_cast<float>(8 * i); };
   const LightData whole = light_data(page_of(4, 4, light));
-  EXPECT_EQ(whole.light.bytes(), light_page_bytes({4, 4}, {0, 0}, false, 0));
+  EXPECT_EQ(whole.light.bytes(), light_page_bytes({4, 4}, {0, 0}, false, false, 0));
   EXPECT_EQ(whole.scale, 0.5f);
   EXPECT_NEAR(whole.mean_lux, 0.5f * 64, 1e-3f);  // of the 15 with light
   const LightData half = light_data(page_of(4, 4, light), 1);
-  EXPECT_EQ(half.light.bytes(), light_page_bytes({4, 4}, {0, 0}, false, 1));
+  EXPECT_EQ(half.light.bytes(), light_page_bytes({4, 4}, {0, 0}, false, false, 1));
   EXPECT_NEAR(red_of(half.light)[0], 80 / 3.0f, 0.02f);
   EXPECT_FLOAT_EQ(red_of(half.light)[1], (16 + 24 + 48 + 56) / 4.0f);
   const LightData least = light_data(page_of(4, 4, light), 9);
