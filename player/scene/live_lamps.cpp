@@ -98,7 +98,8 @@ void LiveLamps::Job::run(const ImageSource& images, std::span<const Reflector> r
       status = tl::unexpected<Error>(own.error());
       return;
     }
-    added.push_back(pages[p].change(std::move(direct[p]), *own, bounced ? &*bounced : nullptr, totals));
+    const std::vector<Vec3> sharp = images.sharp_of_group(lamp->pages[p], lamp->points[p], group);
+    added.push_back(pages[p].change(std::move(direct[p]), {*own, sharp}, bounced ? &*bounced : nullptr, totals));
   }
   if (!coarse) views = emitter_views({reflectors, alphas, emitters, lamp->shown_by, points}, *lamp->scene, pose, &stop);
   report.lights = now.lights.size();
@@ -151,7 +152,7 @@ Result<LiveLamps::Lamp*> LiveLamps::lamp_of(std::size_t group) {
   for (std::uint32_t p = 0; p < pack_.lightmaps.size(); ++p) {
     ORIEL_TRY(LightmapPage page, images_.whole_page(p));
     lamp->points.push_back(page_points(pack_.mesh, shape.parts, p, page));
-    page.standard_error = {}, page.direction = {};
+    page.standard_error = {}, page.direction = {}, page.sharp = {};
     lamp->pages.push_back(std::move(page));
   }
   for (const std::uint32_t e : pack_.light_groups[group].emitters) lamp->shown_by.push_back(shown_by_[e]);
@@ -286,6 +287,11 @@ std::span<const EmitterView> LiveLamps::views(std::size_t group) const {
   const auto lamp = lamps_.find(group);
   if (lamp == lamps_.end() || lamp->second->told != lamp->second->wanted) return {};
   return lamp->second->views;
+}
+
+bool LiveLamps::has_changed(std::size_t group) const {
+  const auto lamp = lamps_.find(group);
+  return lamp != lamps_.end() && !lamp->second->added.empty();
 }
 
 bool LiveLamps::ready() const {

@@ -46,6 +46,8 @@ class LiveLamps {
   bool ready() const;
   // What is added to pages where each group's lamps shine so many times as they were baked; null: nothing.
   std::shared_ptr<const PageChanges> changes(std::span<const Vec3> factors) const;
+  // Whether changes() has something of a group: then all of its direct light, sharp light too.
+  bool has_changed(std::size_t group) const;
   // Which planar reflectors show a group's lamp in closed form, and what of it they see, polygons by LightGroup's
   // emitters. Of a lamp that was moved, and of none before all of its light is there.
   std::span<const EmitterView> views(std::size_t group) const;

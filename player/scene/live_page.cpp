@@ -39,7 +39,7 @@ class Change {
     std::uint32_t number;
     const LightmapPage& page;
     const std::vector<PagePoint>& points;
-    const PageChange& own;
+    const BakedShare& baked;
     const BouncedLight* bounced;
   };
   Change(const From& from, std::vector<LiveSum> direct)
@@ -58,9 +58,10 @@ class Change {
     const std::span<const PagePoint> texels(points.data(), finer);
     for (std::size_t k = 0; k < finer; ++k) at_texel(k), known_[points[k].index] = 1;
     keep_from_neighbours(texels);
-    for (const PagePoint& point : texels)
-      change_.light[point.index] = settle(direct_[point.index], indirect_[point.index], kept_[point.index],
-                                          in_.own.empty() ? Vec3(0) : in_.own.light[point.index], totals);
+    for (std::size_t k = 0; k < finer; ++k) {
+      const std::uint32_t i = points[k].index;
+      change_.light[i] = settle(k, direct_[i], indirect_[i], kept_[i], totals);
+    }
     totals += each(in_.work, finer, points.size(),
                    [&](std::size_t k, LiveSums& live, LiveTotals& sums) { at_finer(k, live, sums); });
     fill_from_neighbours(in_.page, known_, change_.light);
@@ -69,15 +70,23 @@ class Change {
   PageChange take() { return std::move(change_); }
 
  private:
-  // What is added where the bake has `own` of the lamp. around: what is kept of it where the sums do not say.
-  Vec3 settle(const LiveSum& direct, const LiveSum& indirect, float around, const Vec3& own, LiveTotals& sums) const {
+  // What is added at point k. around: what is kept of the bake's where the sums do not say.
+  Vec3 settle(std::size_t k, const LiveSum& direct, const LiveSum& indirect, float around, LiveTotals& sums) const {
     LiveSum both = direct;
     both += indirect;
     const float kept = both.kept().value_or(around);
     sums.now += double{luminance(both.now)};
     sums.kept += double{kept};
     sums.points += 1;
-    return both.now - kept * both.baked - (1 - kept) * own;
+    const Vec3 sharp = in_.baked.sharp.empty() ? Vec3(0) : in_.baked.sharp[k];
+    return both.now - kept * both.baked - (1 - kept) * (own_at(in_.points[k].index) + sharp) + sharp;
+  }
+
+  Vec3 own_at(std::size_t index) const {
+    const PageChange& own = in_.baked.own;
+    if (own.empty()) return Vec3(0);
+    const std::size_t texels = in_.page.irradiance.size();
+    return index < texels ? own.light[index] : own.detail[index - texels];
   }
 
   LiveSum indirect(std::size_t k) const { return in_.bounced != nullptr ? in_.bounced->at(in_.number, k) : LiveSum(); }
@@ -133,8 +142,7 @@ class Change {
     const LiveSum direct = smooth ? mix_sums(direct_at, around.weight) : live.at(point.position, point.normal);
     if (smooth) sums.between += 1;
     const std::size_t i = point.index - in_.page.irradiance.size();
-    change_.detail[i] =
-        settle(direct, bounced, kept_around(direct_at), in_.own.empty() ? Vec3(0) : in_.own.detail[i], sums);
+    change_.detail[i] = settle(k, direct, bounced, kept_around(direct_at), sums);
   }
 
   static bool is_smooth(const std::array<const LiveSum*, 4>& corners) {
@@ -174,9 +182,9 @@ std::vector<LiveSum> LivePage::direct() const {
   return sums;
 }
 
-PageChange LivePage::change(std::vector<LiveSum> direct, const PageChange& own, const BouncedLight* bounced,
+PageChange LivePage::change(std::vector<LiveSum> direct, const BakedShare& baked, const BouncedLight* bounced,
                             LiveTotals& totals) const {
-  Change change({work_, number_, page_, points_, own, bounced}, std::move(direct));
+  Change change({work_, number_, page_, points_, baked, bounced}, std::move(direct));
   totals += change.run();
   return change.take();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <span>
 
 #include "formats/query/live_bounces.h"
 #include "formats/query/page_points.h"
@@ -15,6 +16,12 @@ struct LiveTotals {
   double now = 0, kept = 0;        // the lamp's light, lux; as LiveSum
   double points = 0, between = 0;  // the latter: without rays of their own
   void operator+=(const LiveTotals& o) { now += o.now, kept += o.kept, points += o.points, between += o.between; }
+};
+
+// What the bake knows of the lamp on a page; either may be empty.
+struct BakedShare {
+  const PageChange& own;        // in the page's light
+  std::span<const Vec3> sharp;  // beside it, by point
 };
 
 // A lamp's light at one pose.
@@ -34,9 +41,9 @@ class LivePage {
   // What lights give texels without what they bring of other surfaces, by texel. Moved away: change() has no need of
   // it.
   std::vector<LiveSum> direct() const;
-  // Light that is to be added. own: what the bake knows of the lamp there; may be empty. bounced:
-  // light that comes by way of texels; null: none.
-  PageChange change(std::vector<LiveSum> direct, const PageChange& own, const BouncedLight* bounced,
+  // Light that is to be added where the lamp's sharp light is left out. bounced: light that comes by way of texels;
+  // null: none.
+  PageChange change(std::vector<LiveSum> direct, const BakedShare& baked, const BouncedLight* bounced,
                     LiveTotals& totals) const;
 
  private:
