@@ -9,7 +9,6 @@ namespace {
 
 void set_frame(const gpu::Program& program, const FrameContext& context) {
   const auto& [scene, view, options, stats] = context;
-  program.use();
   program.set("u_clip_from_pack", view.clip_from_pack);
   program.set("u_eye", view.eye);
   program.set("u_base_texture", kBaseUnit);
@@ -22,8 +21,17 @@ void set_frame(const gpu::Program& program, const FrameContext& context) {
   program.set("u_change", kChangeUnit);
   program.set("u_surfaces", kPlaceUnit);
   program.set("u_change_scale", Vec2(0));
+  program.set("u_sharp_at", kSharpAtUnit);
+  program.set("u_sharp_words", kSharpWordsUnit);
+  program.set("u_sharp_triangles", kSharpTrianglesUnit);
+  program.set("u_sharp_lamps", kSharpLampsUnit);
   program.set("u_reflectance_count", scene.reflectance_tables().width());
   scene.reflectance_tables().bind(kReflectanceUnit);
+  if (const GpuSharpLight& sharp = scene.sharp_light()) {
+    sharp.words.bind(kSharpWordsUnit);
+    sharp.triangles.bind(kSharpTrianglesUnit);
+    sharp.lamps.bind(kSharpLampsUnit);
+  }
   scene.bind_geometry();
 }
 
@@ -59,21 +67,32 @@ std::vector<SeeThrough> see_through(const GpuScene& scene, const View& view) {
 
 }  // namespace
 
+Result<ScenePass::Shading> ScenePass::Shading::create(std::string_view name, gpu::Dialect dialect,
+                                                      const std::string& define) {
+  Shading out;
+  ORIEL_TRY(out.smooth, gpu::Program::create(name, dialect, define));
+  ORIEL_TRY(out.points, gpu::Program::create(name, dialect, define + " SHARP"));
+  ORIEL_TRY(out.suns, gpu::Program::create(name, dialect, define + " SHARP SUNS"));
+  return out;
+}
+
 Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
   ScenePass pass;
   ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
   ORIEL_TRY(pass.plain_depth_, gpu::Program::create("depth", dialect, "PLAIN"));
-  ORIEL_TRY(pass.opaque_, gpu::Program::create("scene", dialect));
-  ORIEL_TRY(pass.plain_, gpu::Program::create("scene", dialect, "PLAIN"));
-  ORIEL_TRY(pass.reflected_, gpu::Program::create("scene", dialect, "REFLECTED"));
-  ORIEL_TRY(pass.transparent_, gpu::Program::create("transparent", dialect));
+  ORIEL_TRY(pass.opaque_, Shading::create("scene", dialect));
+  ORIEL_TRY(pass.plain_, Shading::create("scene", dialect, "PLAIN"));
+  ORIEL_TRY(pass.reflected_, Shading::create("scene", dialect, "REFLECTED"));
+  ORIEL_TRY(pass.transparent_, Shading::create("transparent", dialect));
   return pass;
 }
 
-void ScenePass::set_material(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
-                             std::int32_t lightmap_page) const {
-  set_surface(program, scene, material, !scene.pack().mesh.normal_uvs.empty());
+const gpu::Program& ScenePass::set_material(const Shading& shading, const GpuScene& scene, std::uint32_t material,
+                                            std::int32_t lightmap_page) const {
   const LoadedLightmap& lightmap = scene.lightmap(lightmap_page);
+  const gpu::Program& program = shading.of(lightmap, scene.sharp_light());
+  program.use();
+  set_surface(program, scene, material, !scene.pack().mesh.normal_uvs.empty());
   lightmap.texture.bind(kLightmapUnit);
   program.set("u_lightmap_scale", lightmap.scale);
   const bool directional = static_cast<bool>(lightmap.direction);
@@ -81,9 +100,11 @@ void ScenePass::set_material(const gpu::Program& program, const GpuScene& scene,
   (directional ? lightmap.direction : lightmap.texture).bind(kDirectionUnit);
   const bool detailed = static_cast<bool>(lightmap.detail);
   program.set("u_detailed", detailed ? 1 : 0);
-  if (!detailed) return;
+  if (lightmap.sharp_at) lightmap.sharp_at.bind(kSharpAtUnit);
+  if (!detailed) return program;
   lightmap.cells.bind(kCellUnit);
   lightmap.detail.bind(kDetailUnit);
+  return program;
 }
 
 void ScenePass::draw_depth(const FrameContext& context, std::span<const DrawBatch> shown) const {
@@ -116,30 +137,31 @@ void ScenePass::draw_opaque(const FrameContext& context, std::span<const DrawBat
                             const std::set<std::uint32_t>& reflective,
                             const std::optional<BrightChange>& change) const {
   const auto& [scene, view, options, stats] = context;
-  set_frame(plain_, context);
-  set_frame(opaque_, context);
-  scene.bind_shown();
+  plain_.each([&](const gpu::Program& program) { set_frame(program, context); });
+  Vec2 scale(0);
   if (change) {
     change->on_scene->bind(kChangeUnit);
     change->scene_surfaces->bind(kPlaceUnit);
-    opaque_.set("u_change_scale",
-                Vec2(static_cast<float>(change->on_scene->width()) / static_cast<float>(view.width),
-                     static_cast<float>(change->on_scene->height()) / static_cast<float>(view.height)));
+    scale = Vec2(change->on_scene->width(), change->on_scene->height()) / Vec2(view.width, view.height);
   }
-  opaque_.set("u_alpha_kind", 0);
+  opaque_.each([&](const gpu::Program& program) {
+    set_frame(program, context);
+    program.set("u_change_scale", scale);
+    program.set("u_alpha_kind", 0);
+  });
+  scene.bind_shown();
   gpu::RasterState state;
   state.depth_test = true;
   for (const DrawBatch& batch : shown) {
     const Material& m = scene.pack().materials[batch.material];
     const bool twice = is_partly_opaque(m) || reflective.contains(batch.material);
     state.stencil_read = is_partly_opaque(m) ? kSeeThroughBit : kReflectorBits;
-    const gpu::Program& program = is_plain(scene, batch.material) && !change ? plain_ : opaque_;
-    program.use();
     state.cull = cull_of(m);
     state.blend = gpu::Blend::kNone;
     state.stencil_func = twice ? GL_EQUAL : GL_ALWAYS;
     gpu::apply(state);
-    set_material(program, scene, batch.material, batch.lightmap_page);
+    const Shading& shading = is_plain(scene, batch.material) && !change ? plain_ : opaque_;
+    const gpu::Program& program = set_material(shading, scene, batch.material, batch.lightmap_page);
     program.set("u_weights", Vec3(weights.diffuse, weights.undirected, weights.emission));
     draw_batch(batch, stats);
     if (!twice) continue;
@@ -158,21 +180,21 @@ void ScenePass::draw_reflected_depth(const FrameContext& context, const Mirrored
 
 void ScenePass::draw_reflected(const FrameContext& context, const MirroredScene& mirrored) const {
   const auto& [scene, view, options, stats] = context;
-  for (const gpu::Program* program : {&reflected_, &opaque_}) {
-    set_frame(*program, context);
-    set_distance_alpha(*program, view);
-  }
+  for (const Shading* shading : {&reflected_, &opaque_})
+    shading->each([&](const gpu::Program& program) {
+      set_frame(program, context);
+      set_distance_alpha(program, view);
+    });
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
   state.mirrored = view.mirrored;
   state.stencil_read = kReflectorBits;
   const auto draw = [&](const DrawBatch& batch, float undirected, float emission) {
     const Material& m = scene.pack().materials[batch.material];
-    const gpu::Program& program = is_plain(scene, batch.material) ? reflected_ : opaque_;
-    program.use();
     state.cull = cull_of(m);
     gpu::apply(state);
-    set_material(program, scene, batch.material, batch.lightmap_page);
+    const Shading& shading = is_plain(scene, batch.material) ? reflected_ : opaque_;
+    const gpu::Program& program = set_material(shading, scene, batch.material, batch.lightmap_page);
     program.set("u_weights", Vec3(1, undirected, emission));
     draw_batch(batch, stats);
   };
@@ -195,7 +217,8 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
   const auto& [scene, view, options, stats] = context;
   std::vector<SeeThrough> sorted = see_through(scene, view);
   if (sorted.empty()) return {};
-  set_frame(transparent_, context);
+  const auto set_frames = [&] { transparent_.each([&](const gpu::Program& program) { set_frame(program, context); }); };
+  set_frames();
   gpu::RasterState state;
   state.depth_test = true;
   state.alpha_write = false;
@@ -205,12 +228,12 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
     bool solid = false;
     if (glass && one.body) {
       ORIEL_TRY(solid, glass(one.index));
-      if (solid) set_frame(transparent_, context);
+      if (solid) set_frames();
     }
     for (const DrawRange& range : one.ranges) {
       const Material& m = scene.pack().materials[range.material];
       state.cull = cull_of(m);
-      set_material(transparent_, scene, range.material, range.lightmap_page);
+      const gpu::Program& program = set_material(transparent_, scene, range.material, range.lightmap_page);
       // Coverage dims all colours alike: in one draw with its light each layer of a mesh covers those before it.
       const bool covers = m.alpha_mode == AlphaMode::kBlend && m.transmission <= 0;
       const gpu::Buffer ordered = covers ? scene.bind_far_to_near(range, view) : gpu::Buffer();
@@ -219,8 +242,8 @@ Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeigh
         state.blend = blend;
         state.stencil_func = func;
         gpu::apply(state);
-        transparent_.set("u_dimming", dimming ? 1 : 0);
-        transparent_.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
+        program.set("u_dimming", dimming ? 1 : 0);
+        program.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
         draw_indices(covers ? 0 : range.first_index, range.index_count, stats);
       };
       if (!solid && !covers) draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);

@@ -58,14 +58,27 @@ class ScenePass {
   Status draw_transparent(const FrameContext& context, const SceneWeights& weights, const DrawGlass& glass = {}) const;
 
  private:
+  // Where a page has sharp light it takes a program of its own: software rasterisers run every branch.
+  struct Shading {
+    gpu::Program smooth, points, suns;
+    static Result<Shading> create(std::string_view name, gpu::Dialect dialect, const std::string& define = {});
+    const gpu::Program& of(const LoadedLightmap& page, const GpuSharpLight& light) const {
+      return !page.sharp_at ? smooth : light.suns ? suns : points;
+    }
+    template <class Visit>
+    void each(const Visit& visit) const {
+      for (const gpu::Program* program : {&smooth, &points, &suns}) program->use(), visit(*program);
+    }
+  };
   void draw_depths(const FrameContext& context, std::span<const DrawBatch> shown) const;
-  void set_material(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
-                    std::int32_t lightmap_page) const;
+  // Gives the program, in use.
+  const gpu::Program& set_material(const Shading& shading, const GpuScene& scene, std::uint32_t material,
+                                   std::int32_t lightmap_page) const;
 
   gpu::Program depth_, plain_depth_;
   // plain: of surfaces without normal map, cut-outs or change by movers, that are lit; reflected: those in the image of
   // a mirror.
-  gpu::Program opaque_, plain_, reflected_, transparent_;
+  Shading opaque_, plain_, reflected_, transparent_;
 };
 
 }  // namespace oriel

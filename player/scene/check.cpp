@@ -1,6 +1,9 @@
 #include "player/scene/check.h"
 
+#include <algorithm>
+
 #include "player/images/map_choice.h"
+#include "player/scene/gpu_sharp_light.h"
 
 namespace oriel {
 namespace {
@@ -78,6 +81,12 @@ void check_movers(const Pack& pack, Limits& limits) {
   }
 }
 
+void check_sharp_light(const SharpLight& light, Limits& limits) {
+  if (light.empty()) return;
+  const std::size_t most = std::max(light.words.size(), 3 * light.triangles.size());
+  limits.side("sharp light", std::max({kSharpColumns, (most + kSharpColumns - 1) / kSharpColumns, light.lamps.size()}));
+}
+
 }  // namespace
 
 Status check_drawable(const Pack& pack, const gpu::Device& device) {
@@ -86,6 +95,7 @@ Status check_drawable(const Pack& pack, const gpu::Device& device) {
   check_tables(pack, limits);
   check_reflectors(pack, limits);
   check_movers(pack, limits);
+  check_sharp_light(pack.sharp_light, limits);
   return limits.status();
 }
 

@@ -300,6 +300,7 @@ void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, con
   const std::array<std::uint8_t, 4> flat{128, 128, 255, 255};
   flat_ = gpu::Texture2d(gpu::kRgba8, 1, 1, flat.data());
   reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
+  sharp_light_ = GpuSharpLight::upload(pack_.sharp_light);
 
   std::vector<ImageUse> uses;
   const auto as_it_is = [](const Bounds& bounds) { return bounds; };

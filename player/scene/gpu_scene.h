@@ -17,6 +17,7 @@
 #include "player/scene/gpu_emitters.h"
 #include "player/scene/gpu_map_meshes.h"
 #include "player/scene/gpu_mesh.h"
+#include "player/scene/gpu_sharp_light.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/lights.h"
 #include "player/scene/textures.h"
@@ -156,6 +157,7 @@ class GpuScene {
   const gpu::Texture2d& normal_map(std::int32_t index) const;
   // Scale 0 where index is -1.
   const LoadedLightmap& lightmap(std::int32_t index) const;
+  const GpuSharpLight& sharp_light() const { return sharp_light_; }
   const gpu::Texture2d& reflectance_tables() const { return reflectance_tables_; }
   // Whether a reflector's maps are there, or will be once bring_maps() is called. Errors of images.
   Result<bool> may_show_maps(const GpuReflector& reflector);
@@ -198,6 +200,7 @@ class GpuScene {
   // views: lamps that have moved are seen from it, too.
   void list_emitters(GpuReflector& reflector, const Reflector& baked, bool views) const;
   MapFactors factors_of_maps() const;
+  std::vector<Vec3> factors_of_sharp_light() const;
   Pack pack_;
   std::uint64_t serial_ = 0, geometry_serial_ = 0;
   SeenGroups seen_groups_;
@@ -219,6 +222,7 @@ class GpuScene {
   FewerTriangles::Chosen chosen_;            // of the frame, empty where it shows all
   gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;
+  GpuSharpLight sharp_light_;
   std::map<std::tuple<std::int32_t, std::int32_t, bool>, GpuKernel> kernels_;
   GpuMapMeshes map_meshes_;
   BakedLamps baked_;

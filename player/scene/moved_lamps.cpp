@@ -65,7 +65,17 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
   for (GpuReflector& pane : frosted_panes_)  // there may be hundreds
     if (const Reflector& side = pack_.frosted_panes[pane.index]; moves || std::ranges::any_of(side.emitters, changes))
       list_emitters(pane, side, false);
+  sharp_light_.shine(pack_.sharp_light, factors_of_sharp_light());
   return images_->set_lights(lights_, factors_of_maps(), live_->changes(lights_));
+}
+
+// What changes() has of lamps that moved stands for their sharp light too.
+std::vector<Vec3> GpuScene::factors_of_sharp_light() const {
+  if (pack_.sharp_light.empty()) return {};
+  std::vector<Vec3> out = lights_;
+  for (std::size_t g = 0; g < out.size(); ++g)
+    if (live_->has_changed(g)) out[g] = Vec3(0);
+  return out;
 }
 
 // Those of lamps that have moved where they are seen from now, once that is known; until then maps and images have
@@ -103,6 +113,7 @@ void GpuScene::list_emitters(GpuReflector& reflector, const Reflector& baked, bo
 // Lamps that have moved do not shine where maps show them.
 MapFactors GpuScene::factors_of_maps() const {
   MapFactors out;
+  out.sharp = factors_of_sharp_light();
   out.materials.resize(pack_.materials.size());
   for (std::size_t m = 0; m < pack_.materials.size(); ++m)
     if (pack_.materials[m].unlit) out.materials[m] = Vec3(1);  // whatever the lamps do

@@ -5,17 +5,24 @@ uniform highp sampler2D u_sharp_triangles;  // three texels each, likewise
 uniform highp sampler2D u_sharp_lamps;      // a row each, see lamp_at()
 
 const uint kSharpSplit = 0xffffffffu;
+const int kMostSharpSplits = 5;
 const int kSharpColumns = 4095;  // a multiple of three
 // Of a disk of radius 1: directions of equal shares of it (Vogel 1979), and the side of a square as large as a share.
 const vec4 kDiskX[4] = vec4[4](vec4(0.177, -0.226, 0.035, 0.285), vec4(-0.522, 0.495, -0.165, -0.316), vec4(0.685, -0.712, 0.343, 0.254), vec4(-0.765, 0.897, -0.548, -0.126));
 const vec4 kDiskY[4] = vec4[4](vec4(0.000, 0.207, -0.394, 0.371), vec4(-0.092, -0.315, 0.616, -0.608), vec4(0.250, 0.294, -0.734, 0.809), vec4(-0.443, -0.197, 0.779, -0.976));
 const float kDiskStep = 0.443;
+#ifdef SUNS  // some lamps are
+const int kDiskQuads = 4;
+#else
+const int kDiskQuads = 1;  // whose directions are all the same
+#endif
+const float kMostSharpLux = 1.5e5;  // close to a lamp: half floats hold what white reflects of it
 
 struct SharpLamp {
-  vec3 towards;  // unit, from the pixel
-  float distance;  // 0: a sun's
-  float spread;    // tangent of a sun's radius
-  vec3 light;      // lux, without shadows
+  vec3 to;       // from the pixel; of a sun: unit
+  float near;    // 1, of a sun 0
+  float spread;  // tangent of a sun's radius
+  vec3 light;    // lux, without shadows
 };
 
 uint sharp_word(uint i) {
@@ -30,94 +37,87 @@ SharpLamp lamp_at(int row, vec3 p, vec3 normal) {
   vec4 place = texelFetch(u_sharp_lamps, ivec2(0, row), 0);   // of a sun the way to it, and 1
   vec4 axis = texelFetch(u_sharp_lamps, ivec2(1, row), 0);    // and the cosine of its outer cone
   vec4 power = texelFetch(u_sharp_lamps, ivec2(2, row), 0);   // and its inverse falloff; of a sun its spread
+#ifdef SUNS
   if (place.w > 0.5) return SharpLamp(place.xyz, 0.0, power.w, power.rgb * max(dot(normal, place.xyz), 0.0));
+#endif
   vec3 to = place.xyz - p;
-  float distance2 = max(dot(to, to), 1e-12), distance = sqrt(distance2);
-  to /= distance;
-  float cone = clamp((-dot(axis.xyz, to) - axis.w) * power.w, 0.0, 1.0);
-  return SharpLamp(to, distance, 0.0, power.rgb * (cone * cone * max(dot(normal, to), 0.0) / distance2));
+  float distance2 = max(dot(to, to), 1e-12);
+  vec3 towards = to * inversesqrt(distance2);
+  float cone = clamp((-dot(axis.xyz, towards) - axis.w) * power.w, 0.0, 1.0);
+  return SharpLamp(to, 1.0, 0.0, power.rgb * (cone * cone * max(dot(normal, towards), 0.0) / distance2));
 }
 
-// One of a triangle's edges as a pixel sees it: a plane through both.
+// On which side of one of a triangle's edges a lamp is, seen from a pixel: the determinant of the way to corner a, to the
+// next and to the lamp. As the pixel moves it changes evenly.
 struct SharpEdge {
-  vec3 inwards;  // unit
-  float hard;    // sine below which rounding is all that parts a direction from the plane
-  float step;    // sine over which the pixel's own width spreads a shadow's edge; 0: no shadow ends here
+  float inside;
+  vec2 slope;     // of it, from the middle of a sun to its rim
+  float inverse;  // of what it changes by along a shadow's edge
+  float bias;
 };
 
-SharpEdge edge_between(vec3 a, vec3 b, float turn, bool ends, vec3 dx, vec3 dy, float inverse_distance) {
-  vec3 across = turn * cross(a, b);
-  float size = max(length(across), 1e-20);
-  vec3 inwards = across / size;
-  float away = max(length(b - a) / size - inverse_distance, 0.0);
-  float pixel = (abs(dot(inwards, dx)) + abs(dot(inwards, dy))) * away;
-  return SharpEdge(inwards, 1e-6 * (dot(a, a) + dot(b, b)) / size, ends ? pixel + 1e-7 : 0.0);
+float extent(vec3 v) { return dot(abs(v), vec3(1.0)); }
+
+// ends: the shadow does here, else another triangle goes on and takes over without a gap.
+SharpEdge edge_from(vec3 a, vec3 ab, SharpLamp lamp, vec3 u, vec3 v, float turn, bool ends, vec3 dx, vec3 dy) {
+  vec3 to = lamp.to - lamp.near * a, across = cross(ab, to);
+  float rounding = 1e-6 * extent(ab) * extent(to) * extent(a) + 1e-30;
+  vec3 plane = turn * lamp.spread * cross(a, ab);
+  vec2 slope = vec2(dot(plane, u), dot(plane, v));
+  float width = max(abs(dot(across, dx)) + abs(dot(across, dy)) + kDiskStep * length(slope), rounding);
+  return SharpEdge(turn * dot(across, a), slope, 1.0 / (ends ? width : rounding), ends ? 0.5 : 2.0);
 }
 
-float inside(SharpEdge e, vec3 direction) {
-  float sine = dot(e.inwards, direction);
-  return e.step > 0.0 ? clamp(sine / e.step + 0.5, 0.0, 1.0) : step(-e.hard, sine);
-}
-
-vec4 inside_disk(SharpEdge e, float sine, vec2 slope, float spread, int k) {
-  vec4 sines = sine + slope.x * kDiskX[k] + slope.y * kDiskY[k];
-  return e.step > 0.0 ? clamp(sines / (e.step + kDiskStep * spread) + 0.5, 0.0, 1.0) : step(vec4(-e.hard), sines);
+vec4 inside(SharpEdge e, vec4 x, vec4 y) {
+  return clamp((e.inside + e.slope.x * x + e.slope.y * y) * e.inverse + e.bias, 0.0, 1.0);
 }
 
 // How much of a lamp `count` triangles leave, whose words begin at `first`. dx, dy: from a pixel to the next.
 float sharp_visible(SharpLamp lamp, uint first, uint count, vec3 p, vec3 dx, vec3 dy) {
-  vec3 u = normalize(abs(lamp.towards.x) < 0.7 ? vec3(0.0, lamp.towards.z, -lamp.towards.y)
-                                               : vec3(-lamp.towards.z, 0.0, lamp.towards.x));
-  vec3 v = cross(lamp.towards, u);
-  float inverse_distance = lamp.distance > 0.0 ? 1.0 / lamp.distance : 0.0;
-  float covered = 0.0;
-  vec4 covered_disk[4] = vec4[4](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+  vec3 u = normalize(abs(lamp.to.x) < abs(lamp.to.y) ? vec3(0.0, lamp.to.z, -lamp.to.y) : vec3(-lamp.to.z, 0.0, lamp.to.x));
+  vec3 v = cross(lamp.to, u);
+  vec4 covered[4] = vec4[4](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   for (uint k = 0u; k < count; ++k) {
     uint word = sharp_word(first + k);
     int at = 3 * int(word & 0x1fffffffu);
     ivec2 texel = ivec2(at % kSharpColumns, at / kSharpColumns);
-    vec3 a = texelFetch(u_sharp_triangles, texel, 0).xyz - p;
-    vec3 b = texelFetch(u_sharp_triangles, texel + ivec2(1, 0), 0).xyz - p;
-    vec3 c = texelFetch(u_sharp_triangles, texel + ivec2(2, 0), 0).xyz - p;
-    vec3 normal = cross(b - a, c - a);
-    // The triangle's plane must lie between the pixel and the lamp.
-    float height = dot(normal, a), of_lamp = dot(normal, lamp.towards) * (lamp.distance > 0.0 ? lamp.distance : 1e20);
-    if (height * (of_lamp - height) <= 0.0) continue;
+    vec3 a = texelFetch(u_sharp_triangles, texel, 0).xyz;
+    vec3 b = texelFetch(u_sharp_triangles, texel + ivec2(1, 0), 0).xyz;
+    vec3 c = texelFetch(u_sharp_triangles, texel + ivec2(2, 0), 0).xyz;
+    vec3 ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, bc);
+    a -= p, b -= p, c -= p;
+    float height = dot(normal, a);
+    // The triangle's plane lies before a lamp.
+    if (lamp.near * (height * height - height * dot(normal, lamp.to)) >= (1.0 - lamp.near) * height * height) continue;
     float turn = sign(height);
-    SharpEdge ab = edge_between(a, b, turn, (word & 0x20000000u) != 0u, dx, dy, inverse_distance);
-    SharpEdge bc = edge_between(b, c, turn, (word & 0x40000000u) != 0u, dx, dy, inverse_distance);
-    SharpEdge ca = edge_between(c, a, turn, (word & 0x80000000u) != 0u, dx, dy, inverse_distance);
-    if (lamp.spread <= 0.0) {
-      covered = max(covered, min(inside(ab, lamp.towards), min(inside(bc, lamp.towards), inside(ca, lamp.towards))));
-      continue;
-    }
-    vec3 sines = vec3(dot(ab.inwards, lamp.towards), dot(bc.inwards, lamp.towards), dot(ca.inwards, lamp.towards));
-    vec2 of_ab = lamp.spread * vec2(dot(ab.inwards, u), dot(ab.inwards, v));
-    vec2 of_bc = lamp.spread * vec2(dot(bc.inwards, u), dot(bc.inwards, v));
-    vec2 of_ca = lamp.spread * vec2(dot(ca.inwards, u), dot(ca.inwards, v));
-    for (int j = 0; j < 4; ++j) {
-      vec4 in_all = min(inside_disk(ab, sines.x, of_ab, lamp.spread, j),
-                        min(inside_disk(bc, sines.y, of_bc, lamp.spread, j), inside_disk(ca, sines.z, of_ca, lamp.spread, j)));
-      covered_disk[j] = max(covered_disk[j], in_all);
+    SharpEdge e0 = edge_from(a, ab, lamp, u, v, turn, (word & 0x20000000u) != 0u, dx, dy);
+    SharpEdge e1 = edge_from(b, bc, lamp, u, v, turn, (word & 0x40000000u) != 0u, dx, dy);
+    SharpEdge e2 = edge_from(c, ca, lamp, u, v, turn, (word & 0x80000000u) != 0u, dx, dy);
+    for (int j = 0; j < kDiskQuads; ++j) {
+      vec4 x = kDiskX[j], y = kDiskY[j];
+      // Exact between opposite edges, so that what is thinner than a pixel fades.
+      covered[j] = max(covered[j], inside(e0, x, y) + inside(e1, x, y) + inside(e2, x, y) - 2.0);
     }
   }
-  if (lamp.spread <= 0.0) return 1.0 - covered;
-  return 1.0 - dot(covered_disk[0] + covered_disk[1] + covered_disk[2] + covered_disk[3], vec4(1.0 / 16.0));
+  vec4 sum = vec4(0.0);
+  for (int j = 0; j < kDiskQuads; ++j) sum += covered[j];
+  return 1.0 - dot(sum, vec4(0.25 / float(kDiskQuads)));
 }
 
 // lux at a place of a page, uv in [0,1]. normal: unit, by which light is received.
 vec3 sharp_light(vec2 uv, vec3 p, vec3 dx, vec3 dy, vec3 normal) {
   vec2 size = vec2(textureSize(u_sharp_at, 0));
-  vec2 at = clamp(uv * size, vec2(0.0), size - 0.5);
-  uint place = texelFetch(u_sharp_at, ivec2(at), 0).r;
+  vec2 at = uv * size, texel = clamp(floor(at), vec2(0.0), size - 1.0);
+  uint place = texelFetch(u_sharp_at, ivec2(texel), 0).r;
   if (place == 0u) return vec3(0.0);
-  vec2 within = fract(at);
+  vec2 within = clamp(at - texel, 0.0, 1.0);
   uint head = sharp_word(place);
-  for (int k = 0; k < 6 && head == kSharpSplit; ++k) {
+  for (int k = 0; head == kSharpSplit; ++k) {
+    if (k == kMostSharpSplits) return vec3(0.0);
     within *= 2.0;
-    uvec2 quarter = uvec2(min(within, vec2(1.0)));
-    within -= vec2(quarter);
-    place = sharp_word(place + 1u + quarter.x + 2u * quarter.y);
+    vec2 quarter = step(1.0, within);
+    within -= quarter;
+    place = sharp_word(place + 1u + uint(quarter.x + 2.0 * quarter.y));
     head = sharp_word(place);
   }
   vec3 sum = vec3(0.0);
@@ -133,5 +133,5 @@ vec3 sharp_light(vec2 uv, vec3 p, vec3 dx, vec3 dy, vec3 normal) {
     }
     next += count;
   }
-  return sum;
+  return min(sum, kMostSharpLux);
 }

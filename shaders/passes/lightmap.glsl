@@ -1,6 +1,9 @@
 // Baked light on a surface of the scene that stands still.
 #include "passes/surface.glsl"
 #include "lib/lightmap_uv.glsl"
+#ifdef SHARP  // a program of its own for pages with such light, likewise
+#include "lib/sharp_light.glsl"
+#endif
 
 uniform sampler2D u_lightmap;
 uniform float u_lightmap_scale;  // lux; 0: nothing was baked
@@ -71,7 +74,15 @@ vec3 baked_light() {
 // Lightmaps hold the light of fronts: a back that is lit is a surface of its own.
 vec3 irradiance_on(vec3 tilted) {
   vec3 irradiance = baked_light();
+#ifdef SHARP
+  vec3 dx = dFdx(v_position), dy = dFdy(v_position);
+#endif
   if (!gl_FrontFacing) return vec3(0.0);
-  if (!u_normal_mapped || !u_directional) return irradiance;
-  return irradiance * directional_ratio(texture(u_direction, lightmap_uv(v_lightmap_uv)).xyz, tilted, front_normal());
+  if (u_normal_mapped && u_directional)
+    irradiance *= directional_ratio(texture(u_direction, lightmap_uv(v_lightmap_uv)).xyz, tilted, front_normal());
+#ifdef SHARP
+  vec3 normal = u_normal_mapped ? normalize(tilted) : front_normal();
+  irradiance += sharp_light(lightmap_uv(v_lightmap_uv), v_position, dx, dy, normal);
+#endif
+  return irradiance;
 }

@@ -38,5 +38,25 @@ TEST_F(MoverShadowsTest, OfManyLooksAreAsRays) {
   EXPECT_LT(many, 0.02 * 0.02 * open);  // the maps have texels
 }
 
+// The same floor lit by a sun that is computed by the pixel.
+TEST_F(MoverShadowsTest, AreTakenOfSharpLightToo) {
+  const Pack pack = lamp_scene();
+  Pack sharp = pack;
+  LightmapPage& page = sharp.lightmaps[0];
+  page.sharp = page.irradiance, page.sharp_at.assign(page.sharp.size(), 1);
+  SharpLamp sun;
+  sun.sun = true, sun.direction = {0, -1, 0}, sun.intensity = page.irradiance[0];
+  sharp.sharp_light = {{sun}, {0, 1, SharpShine{0, false, 0}.code()}, {}};
+  Camera camera = above_floor(1.4f, 0.1f);
+  camera.vertical_fov_rad = 1;
+  const Picture wanted = draw(pack, camera, 33, 33), found = draw(sharp, camera, 33, 33);
+  float least = 100, most = 0;
+  for (std::size_t i = 0; i < wanted.rgb.size(); ++i) {
+    EXPECT_NEAR(found.rgb[i], wanted.rgb[i], 1e-3f * wanted.rgb[i] + 1e-3f) << i;
+    least = std::min(least, wanted.rgb[i]), most = std::max(most, wanted.rgb[i]);
+  }
+  EXPECT_LT(least, 0.97f * most) << "there is a shadow";
+}
+
 }  // namespace
 }  // namespace oriel

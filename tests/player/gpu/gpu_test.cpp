@@ -88,6 +88,10 @@ TEST(Programs, CompileInBothDialects) {
       const auto program = gpu::Program::create(name, dialect, "PLAIN");
       EXPECT_TRUE(program) << program.error().text();
     }
+    for (const char* define : {"SHARP", "PLAIN SHARP", "REFLECTED SHARP SUNS"}) {
+      const auto program = gpu::Program::create("scene", dialect, define);
+      EXPECT_TRUE(program) << program.error().text();
+    }
     const auto tree = gpu::Program::create("screen_glass", dialect, "TREE");
     EXPECT_TRUE(tree) << tree.error().text();
     if (dialect == Dialect::kEs300) continue;  // has no multisample textures

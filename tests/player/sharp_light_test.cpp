@@ -1,0 +1,381 @@
+// Light of points and suns by the pixel, against closed forms.
+#include "formats/core/half.h"
+#include "formats/query/camera.h"
+#include "player/scene/check.h"
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+
+using namespace testing;
+
+constexpr float kFloorAlbedo = 0.5f;
+constexpr std::uint32_t kFloorTexels = 4;  // texels
+constexpr float kFloorWidth = 4;           // metres, about the origin
+const Vec3 kCandela(400, 300, 200), kLampAbove(0.1f, 2, -0.05f);
+constexpr float kWest = -0.3f, kEast = 0.4f, kNorth = -0.25f, kSouth = 0.2f, kBoardHeight = 1;  // a board between
+
+constexpr std::uint32_t edges(std::uint32_t flags) {
+  return flags << kSharpEdgeShift;
+}
+
+// A floor whose texels have no record yet.
+Pack dark_floor() {
+  Pack pack;
+  pack.materials.resize(1);
+  pack.materials[0].base_color = Vec3(kFloorAlbedo);
+  add_quad(pack, {-kFloorWidth / 2, 0, -kFloorWidth / 2}, {0, 0, kFloorWidth}, {kFloorWidth, 0, 0}, 0,
+           0);  // u is z, v is x
+  LightmapPage page = page_of(kFloorTexels, [](auto, auto) { return Vec3(7); });
+  page.sharp.assign(kFloorTexels * kFloorTexels, Vec3(7));
+  page.sharp_at.assign(kFloorTexels * kFloorTexels, 1);
+  pack.lightmaps = {page};
+  pack.sharp_light.words = {0};
+  return pack;
+}
+
+SharpLamp point_above() {
+  SharpLamp lamp;
+  lamp.position = kLampAbove, lamp.intensity = kCandela;
+  return lamp;
+}
+
+// Two triangles, without their common edge.
+void add_board(SharpLight& light, float west, float east, float north, float south) {
+  const Vec3 a(west, kBoardHeight, north), b(east, kBoardHeight, north), c(east, kBoardHeight, south),
+      d(west, kBoardHeight, south);
+  light.triangles.push_back({a, b, c});
+  light.triangles.push_back({a, c, d});
+}
+
+std::vector<std::uint32_t> shine_past_board(std::uint32_t lamp = 0) {
+  return {SharpShine{lamp, false, 2}.code(), edges(3) | 0, edges(6) | 1};
+}
+
+void add_record(Pack& pack, std::vector<std::uint32_t> words, std::uint32_t lamps = 1) {
+  words.insert(words.begin(), lamps);
+  pack.sharp_light.words.insert(pack.sharp_light.words.end(), words.begin(), words.end());
+}
+
+Pack floor_below_board(const SharpLamp& lamp = point_above()) {
+  Pack pack = dark_floor();
+  pack.sharp_light.lamps = {lamp};
+  add_board(pack.sharp_light, kWest, kEast, kNorth, kSouth);
+  add_record(pack, shine_past_board());
+  return pack;
+}
+
+// Straight down; +x is right, +z is down.
+Camera down_from(const Vec3& eye, float half_height) {
+  return {"c", eye, {0, -1, 0}, {0, 0, -1}, 0, half_height};
+}
+
+struct FloorFrame {
+  int side;
+  float half;
+  Vec2 middle{0};
+  Vec3 at(int x, int y) const {
+    const Vec2 in = (2.0f * (Vec2(x, y) + 0.5f) / static_cast<float>(side) - 1.0f) * half + middle;
+    return {in.x, 0, in.y};
+  }
+  float pixel() const { return 2 * half / static_cast<float>(side); }
+};
+
+Vec3 open_light(const Vec3& from, const Vec3& p) {
+  const Vec3 to = from - p;
+  return kCandela * (to.y / glm::length(to) / length2(to));
+}
+
+// The board's shadow on the floor, x and z.
+struct BoardShadow {
+  Vec2 lower, upper;
+  explicit BoardShadow(const Vec3& from) {
+    const Vec2 lamp(from.x, from.z);
+    const float grows = from.y / (from.y - kBoardHeight);
+    lower = lamp + (Vec2(kWest, kNorth) - lamp) * grows, upper = lamp + (Vec2(kEast, kSouth) - lamp) * grows;
+  }
+  // Metres inside; negative: outside.
+  float depth(const Vec3& p) const {
+    const Vec2 at(p.x, p.z), in = glm::min(at - lower, upper - at);
+    return std::min(in.x, in.y);
+  }
+  // Of a square about the place.
+  float share(const Vec3& p, float side) const {
+    const Vec2 at(p.x, p.z);
+    const Vec2 in = glm::min(at + side / 2, upper) - glm::max(at - side / 2, lower);
+    const Vec2 of = glm::clamp(in / side, Vec2(0), Vec2(1));
+    return of.x * of.y;
+  }
+};
+
+void expect_close(const Vec3& found, const Vec3& wanted, float relative) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], relative * wanted[c] + 1e-4f) << c;
+}
+
+// Of a picture from above: lit pixels, dark ones, and how much of the shadow's edges' pixels is lit.
+void expect_point_light(const Picture& picture, const FloorFrame& frame, const Vec3& from,
+                        const Vec3& factor = Vec3(1)) {
+  const BoardShadow shadow(from);
+  int lit = 0, dark = 0;
+  double sum = 0, wanted = 0;
+  for (int y = 0; y < frame.side; ++y)
+    for (int x = 0; x < frame.side; ++x) {
+      const Vec3 p = frame.at(x, y), open = factor * open_light(from, p) * (kFloorAlbedo / kPi);
+      const float share = shadow.share(p, frame.pixel()), found = 1 - picture.at(x, y).r / open.r;
+      sum += double{found}, wanted += double{share};
+      if (share <= 0) {
+        expect_close(picture.at(x, y), open, 0.01f);
+        ++lit;
+      } else if (share >= 1) {
+        EXPECT_EQ(picture.at(x, y), Vec3(0)) << x << ", " << y;
+        ++dark;
+      } else {
+        EXPECT_NEAR(found, share, 0.25f) << x << ", " << y;
+      }
+    }
+  EXPECT_GT(lit, 100);
+  EXPECT_GT(dark, 100);
+  EXPECT_NEAR(sum, wanted, 0.01 * wanted);
+}
+
+using SharpLightTest = FrameTest;
+
+TEST_F(SharpLightTest, APointsLightAndShadowAreExact) {
+  const FloorFrame frame{97, 1.5f};
+  for (const Vec3& from : {kLampAbove, Vec3(0, 2, 0), Vec3(-0.7f, 1.5f, 0.4f), Vec3(0.02f, 3, 0.013f)}) {
+    SharpLamp lamp = point_above();
+    lamp.position = from;
+    const Picture picture = draw(floor_below_board(lamp), down_from({0, 1, 0}, frame.half), frame.side, frame.side);
+    expect_point_light(picture, frame, from);
+  }
+}
+
+TEST_F(SharpLightTest, IsAddedToTheRestOfTheLightmap) {
+  Pack pack = floor_below_board();
+  for (Vec3& e : pack.lightmaps[0].irradiance) e += Vec3(10, 20, 30);
+  pack.lightmaps[0].irradiance[3] = Vec3(5);  // less than its sharp light by noise
+  const Picture picture = draw(pack, down_from({0, 1, 0}, 1.5f), 97, 97);
+  expect_close(picture.at(48, 48), Vec3(10, 20, 30) * (kFloorAlbedo / kPi), 1e-3f);
+  const FloorFrame frame{97, 1.5f};
+  expect_close(picture.at(80, 80), (Vec3(10, 20, 30) + open_light(kLampAbove, frame.at(80, 80))) * (kFloorAlbedo / kPi),
+               0.01f);
+}
+
+TEST_F(SharpLightTest, ASpotsConeFadesAsItsAngles) {
+  SharpLamp spot = point_above();
+  spot.direction = glm::normalize(Vec3(0.1f, -1, 0.2f));
+  spot.cos_outer = std::cos(0.5f), spot.inverse_falloff = 1 / (std::cos(0.2f) - std::cos(0.5f));
+  Pack pack = dark_floor();
+  pack.sharp_light.lamps = {spot};
+  add_record(pack, {SharpShine{0, false, 0}.code()});
+  const FloorFrame frame{65, 1.5f};
+  const Picture picture = draw(pack, down_from({0, 1, 0}, frame.half), frame.side, frame.side);
+  for (int y = 0; y < frame.side; ++y)
+    for (int x = 0; x < frame.side; ++x) {
+      const Vec3 p = frame.at(x, y);
+      const float cosine = glm::dot(glm::normalize(p - kLampAbove), spot.direction);
+      const float t = std::clamp((cosine - spot.cos_outer) * spot.inverse_falloff, 0.0f, 1.0f);
+      expect_close(picture.at(x, y), t * t * open_light(kLampAbove, p) * (kFloorAlbedo / kPi), 0.01f);
+    }
+}
+
+// A board that ends along z above the origin, under a sun of 1°: what of a disk is beyond a straight edge.
+TEST_F(SharpLightTest, ASunsPenumbraIsThatOfADisk) {
+  for (const Vec3& to_sun : {glm::normalize(Vec3(0, 1, 0)), glm::normalize(Vec3(0.5f, 1, 0.3f))}) {
+    SharpLamp sun;
+    sun.sun = true, sun.direction = -to_sun, sun.intensity = kCandela, sun.angular_radius_rad = kPi / 180;
+    Pack pack = dark_floor();
+    pack.sharp_light.lamps = {sun};
+    add_board(pack.sharp_light, 0, 3, -3, 2.5f);
+    add_record(pack, shine_past_board());
+    const FloorFrame frame{64, 0.05f, Vec2(-to_sun.x, -to_sun.z) / to_sun.y};
+    const Picture picture =
+        draw(pack, down_from({frame.middle.x, 0.5f, frame.middle.y}, frame.half), frame.side, frame.side);
+    float most = 0;
+    for (int y = 0; y < frame.side; ++y)
+      for (int x = 0; x < frame.side; ++x) {
+        const Vec3 inwards = glm::normalize(glm::cross(Vec3(0, kBoardHeight, 0) - frame.at(x, y), Vec3(0, 0, 1)));
+        const float sine = -glm::dot(inwards, to_sun);
+        const float u = std::clamp(sine / std::tan(kPi / 180), -1.0f, 1.0f);
+        const float open = 0.5f + (u * std::sqrt(1 - u * u) + std::asin(u)) / kPi;
+        const float found = picture.at(x, y).r / (kCandela.r * to_sun.y * kFloorAlbedo / kPi);
+        most = std::max(most, std::abs(found - open));
+      }
+    EXPECT_LT(most, 0.06f);
+    std::printf("penumbra of a sun of 1 degree: at most %.3f off\n", most);
+  }
+}
+
+TEST_F(SharpLightTest, NothingLeaksThroughTheMiddleOfASunsShadow) {
+  SharpLamp sun;
+  sun.sun = true, sun.direction = {0, -1, 0}, sun.intensity = kCandela, sun.angular_radius_rad = kPi / 180;
+  const Camera camera{"c", {0.3f, 0.7f, 0.6f}, {-0.2f, -0.7f, -0.6f}};
+  const Picture picture = draw(floor_below_board(sun), camera, 97, 97);
+  int dark = 0;
+  for (int y = 0; y < 97; ++y)
+    for (int x = 0; x < 97; ++x) {
+      const PixelRay ray = pixel_ray(camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 97, 97);
+      const Vec3 p = ray.origin - ray.direction * (ray.origin.y / ray.direction.y);
+      const Vec2 in = glm::min(Vec2(p.x - kWest, p.z - kNorth), Vec2(kEast - p.x, kSouth - p.z));
+      if (ray.direction.y >= 0 || std::min(in.x, in.y) < 0.04f) continue;
+      EXPECT_EQ(picture.at(x, y), Vec3(0)) << x << ", " << y;
+      ++dark;
+    }
+  EXPECT_GT(dark, 300);
+  EXPECT_GT(picture.at(48, 94).r, 0);
+}
+
+TEST_F(SharpLightTest, PartsOfATexelHaveRecordsOfTheirOwn) {
+  Pack pack = dark_floor();
+  pack.sharp_light.lamps = {point_above()};
+  const std::uint32_t lit = 11, dark = 13;
+  pack.sharp_light.words = {
+      0, kSharpSplit, dark, lit, 6, lit, kSharpSplit, lit, lit, lit, dark, 1, SharpShine{0, false, 0}.code(), 0};
+  const FloorFrame frame{64, 2};  // 16 pixels a texel
+  const Picture picture = draw(pack, down_from({0, 1, 0}, frame.half), frame.side, frame.side);
+  for (int y = 0; y < frame.side; ++y)
+    for (int x = 0; x < frame.side; ++x) {
+      const int u = y % 16, v = x % 16;
+      const bool is_dark = (u < 8 && v < 8) || (u >= 4 && u < 8 && v >= 12);
+      const Vec3 open = open_light(kLampAbove, frame.at(x, y)) * (kFloorAlbedo / kPi);
+      expect_close(picture.at(x, y), is_dark ? Vec3(0) : open, 0.01f);
+    }
+}
+
+TEST_F(SharpLightTest, FollowsItsTintAndItsGroup) {
+  const Vec3 tint(1, 0.5f, 0.25f), factor(0.5f, 0, 3);
+  Pack pack = dark_floor();
+  pack.sharp_light.lamps = {point_above()};
+  pack.sharp_light.lamps[0].light_group = 0;
+  pack.light_groups.resize(1);
+  pack.light_groups[0].name = "lamp";
+  add_board(pack.sharp_light, kWest, kEast, kNorth, kSouth);
+  add_record(pack, {SharpShine{0, true, 2}.code(), rgb9e5_from_rgb(tint), edges(3) | 0, edges(6) | 1});
+  const FloorFrame frame{97, 1.5f};
+  const Camera camera = down_from({0, 1, 0}, frame.half);
+  expect_point_light(draw(pack, camera, frame.side, frame.side), frame, kLampAbove, tint);
+  const Picture picture = draw(pack, camera, frame.side, frame.side, {.lights = {factor}});
+  expect_close(picture.at(90, 90), factor * tint * open_light(kLampAbove, frame.at(90, 90)) * (kFloorAlbedo / kPi),
+               0.01f);
+}
+
+// What a mirror shows is what an eye behind it sees.
+TEST_F(SharpLightTest, IsSeenInAMirror) {
+  Pack pack = floor_below_board();
+  const Camera behind = look_at({0, 1, -3.6f}, {0, 0, 0}, 0.6f), before = look_at({0, 1, -0.4f}, {0, 0, -4}, 0.6f);
+  const Picture direct = draw(pack, behind, 64, 64);
+  pack.materials.resize(2);
+  pack.materials[1].metallic = 1, pack.materials[1].fresnel_map = 0, pack.materials[1].roughness = 0;
+  pack.fresnel_maps.push_back(flat_reflectance(Vec3(1)));
+  add_bare_mirror(pack, {-2, 0, -2}, {4, 0, 0}, {0, 2, 0}, 1);
+  const Picture mirrored = draw(pack, before, 64, 64);
+  int same = 0, dark = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const float wanted = direct.at(63 - x, y).r, found = mirrored.at(x, y).r;
+      same += std::abs(found - wanted) <= 0.02f * wanted ? 1 : 0, dark += wanted == 0 ? 1 : 0;
+    }
+  EXPECT_GT(dark, 100);
+  EXPECT_LT(dark, 64 * 64 / 2);
+  EXPECT_GT(same, 64 * 64 * 95 / 100);
+}
+
+TEST_F(SharpLightTest, IsReceivedByTheMappedNormal) {
+  Pack pack = dark_floor();
+  pack.sharp_light.lamps = {point_above()};
+  add_record(pack, {SharpShine{0, false, 0}.code()});
+  pack.materials[0].normal_texture = 0;
+  pack.normal_textures.push_back({"n", 1, 1, Wrap::kRepeat, Wrap::kRepeat, false, {200, 128, 220, 255}});
+  pack.mesh.normal_uvs = pack.mesh.uvs;
+  pack.mesh.tangents.assign(4, Vec4(1, 0, 0, 1));
+  const Vec3 n = glm::normalize(2.0f * Vec3(200, 220, 128) / 255.0f - 1.0f);
+  for (const bool directional : {false, true}) {
+    if (directional) pack.lightmaps[0].direction.assign(16, Vec3(-0.6f, 0.8f, 0));  // of light that is not there
+    const Picture picture = draw(pack, down_from({0, 1, 0}, 1.5f), 33, 33);
+    const Vec3 p = FloorFrame{33, 1.5f}.at(20, 16), to = glm::normalize(kLampAbove - p);
+    expect_close(picture.at(20, 16), open_light(kLampAbove, p) / to.y * (glm::dot(n, to) * kFloorAlbedo / kPi), 0.01f);
+  }
+}
+
+TEST_F(SharpLightTest, StaysWhereThePageIsCoarse) {
+  const Pack pack = floor_below_board();
+  const Camera camera = down_from({0, 1, 0}, 1.5f);
+  LoadingOptions least;
+  least.limit = 1;
+  const auto scene = GpuScene::create(pack, device_, least);
+  ASSERT_TRUE(scene);
+  ASSERT_TRUE(renderer_->render(**scene, make_view(camera, 97, 97, (*scene)->bounds()), {}));
+  const Picture whole = draw(pack, camera, 97, 97);
+  EXPECT_GT(whole.at(4, 4).r, 0);
+  EXPECT_EQ(renderer_->read_light(), whole.rgb);
+}
+
+// The lamp of a group, and the board where rays of the moved lamp meet it.
+Pack movable() {
+  Pack pack = floor_below_board();
+  constexpr std::uint32_t kFine = 64;
+  LightmapPage page = page_of(kFine, [](auto, auto) { return Vec3(50); });
+  page.sharp.assign(kFine * kFine, Vec3(30)), page.sharp_at.assign(kFine * kFine, 1);
+  pack.lightmaps = {page};
+  // Its back, which is not drawn, is above.
+  add_quad(pack, {kWest, kBoardHeight, kNorth}, {kEast - kWest, 0, 0}, {0, 0, kSouth - kNorth}, 0, -1);
+  BrightLight point;
+  point.position = kLampAbove, point.intensity = kCandela;
+  pack.light_field.lights = {point};
+  pack.sharp_light.lamps[0].light_group = 0;
+  pack.light_groups.resize(1);
+  pack.light_groups[0].name = "lamp", pack.light_groups[0].bright_lights = {0};
+  return pack;
+}
+
+TEST_F(SharpLightTest, OfALampThatMovesIsItsLightElsewhere) {
+  const Pack pack = movable();
+  const FloorFrame frame{48, 1.5f};
+  const Camera camera = down_from({0, 0.9f, 0}, frame.half);
+  constexpr float kBlur = 0.09f;  // metres: one and a half texels
+  const Vec3 rest = Vec3(20) * (kFloorAlbedo / kPi);
+  for (const Vec3& by : {Vec3(0.001f, 0, 0), Vec3(-0.6f, 0, 0.3f)})
+    for (const float factor : {1.0f, 0.5f}) {
+      MoverPose pose;
+      pose.position = by;
+      const Picture picture = draw(pack, camera, frame.side, frame.side,
+                                   {.lights = {Vec3(factor)}, .lamps = {pose}, .live = {{.bounces = 0}}});
+      int lit = 0, dark = 0;
+      for (int y = 0; y < frame.side; ++y)
+        for (int x = 0; x < frame.side; ++x) {
+          const Vec3 p = frame.at(x, y), open = factor * open_light(kLampAbove + by, p) * (kFloorAlbedo / kPi);
+          const float inside = BoardShadow(kLampAbove + by).depth(p);
+          if (std::abs(inside) < kBlur) continue;
+          expect_close(picture.at(x, y), inside > 0 ? rest : rest + open, 0.02f);
+          ++(inside > 0 ? dark : lit);
+        }
+      EXPECT_GT(lit, 100);
+      EXPECT_GT(dark, 100);
+    }
+}
+
+// Who asks for texels is told of all light.
+TEST_F(SharpLightTest, IsInTheTexelsOfLampsAsTheyShine) {
+  const auto scene = GpuScene::create(movable(), device_);
+  ASSERT_TRUE(scene);
+  const Vec3 factors[] = {Vec3(0.5f, 0, 2)};
+  ASSERT_TRUE((*scene)->set_lamps(factors, {}, {}));
+  const auto page = (*scene)->page(0);
+  ASSERT_TRUE(page);
+  for (const std::size_t texel : {0u, 64u * 20 + 10}) expect_close((*page)->irradiance[texel], Vec3(35, 20, 80), 0.01f);
+}
+
+TEST(CheckDrawable, RefusesSharpLightThatTexturesCannotHold) {
+  gpu::Device device;
+  device.texture_size = 4096, device.array_layers = 64;
+  Pack pack = floor_below_board();
+  EXPECT_TRUE(check_drawable(pack, device));
+  pack.sharp_light.words.resize(4095 * 4096 + 1);
+  EXPECT_FALSE(check_drawable(pack, device));
+  pack.sharp_light.words.resize(4);
+  device.texture_size = 2048;
+  EXPECT_FALSE(check_drawable(pack, device));
+}
+
+}  // namespace
+}  // namespace oriel
