@@ -88,7 +88,7 @@ export function exponent(r: ByteReader): number {
 }
 
 export function readPage(r: ByteReader): Page {
-  const width = r.size(kMaxSide, 'width'), height = r.size(kMaxSide, 'height'), flags = r.size(1, 'lightmap flags');
+  const width = r.size(kMaxSide, 'width'), height = r.size(kMaxSide, 'height'), flags = r.size(3, 'lightmap flags');
   const detailWidth = r.size(16384, 'details'), detailHeight = r.size(16384, 'details');
   const page: Page = { width, height, detailWidth, detailHeight, scale: 2 ** exponent(r), light: halves(r, width * height, false) };
   if (!width || !height) r.fail('found a page without texels');
@@ -102,6 +102,11 @@ export function readPage(r: ByteReader): Page {
         r.fail('found a cell outside of the image of details');
     }
     page.detail = halves(r, detailWidth * detailHeight, false);
+  }
+  if (flags & 2) {
+    page.sharpAt = r.planesU32(width * height);
+    exponent(r);
+    halves(r, width * height, false);
   }
   exponent(r);
   halves(r, width * height, false);

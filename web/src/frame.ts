@@ -39,6 +39,7 @@ export class Renderer {
   private readonly plain: Program;
   private readonly reflected: Program;
   private readonly transparent: Program;
+  private readonly sharp: Map<Program, Program>;  // the same where lamps' light is computed by pixel
   private readonly luminance: Program;
   private readonly average: Program;
   private readonly reflections: Reflections;
@@ -49,6 +50,10 @@ export class Renderer {
     this.depth = make('depth'), this.plainDepth = make('depth', 'PLAIN');
     this.opaque = make('scene'), this.plain = make('scene', 'PLAIN'), this.reflected = make('scene', 'REFLECTED');
     this.transparent = make('transparent'), this.luminance = make('screen_luminance'), this.average = make('screen_average');
+    this.sharp = new Map([
+      [this.opaque, make('scene', 'SHARP')], [this.plain, make('scene', 'PLAIN SHARP')], [this.reflected, make('scene', 'REFLECTED SHARP')],
+      [this.transparent, make('transparent', 'SHARP')],
+    ]);
     this.none = gl.createVertexArray()!;
     this.reflections = new Reflections(device, this, this.none);
   }
@@ -130,7 +135,13 @@ export class Renderer {
     }
   }
 
+  private programFor(range: Range, scene: GpuScene, program: Program): Program {
+    return scene.isSharp(range) ? this.sharp.get(program)! : program;
+  }
+
   private setFrame(program: Program, scene: GpuScene, view: View, distance: boolean): void {
+    const sharp = scene.hasSharp ? this.sharp.get(program) : undefined;
+    if (sharp) this.setFrame(sharp, scene, view, distance);
     program.use();
     program.set('u_clip_from_pack', view.clipFromPack);
     program.set('u_eye', view.eye);
@@ -149,7 +160,7 @@ export class Renderer {
     for (const range of shown) {
       const m = scene.data.materials[range.material]!, partly = isPartlyOpaque(m);
       const twice = reflective.has(range.material) || (partly && !distance), stencilRead = partly ? seeThroughBit : reflectorBits;
-      const program = m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit && !scene.picture(range.material) ? plain : this.opaque;
+      const program = this.programFor(range, scene, m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit && !scene.picture(range.material) ? plain : this.opaque);
       program.use();
       scene.setSurface(program, range);
       program.set('u_weights', [1, 1, 1]);
@@ -171,7 +182,7 @@ export class Renderer {
     const state = { depthTest: true, depthWrite: true, mirrored: view.mirrored };
     this.drawRanges(scene, view, shown, this.reflected, reflective, state, true);
     for (const range of dark) {
-      const m = scene.data.materials[range.material]!, program = m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit ? this.reflected : this.opaque;
+      const m = scene.data.materials[range.material]!, program = this.programFor(range, scene, m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit ? this.reflected : this.opaque);
       program.use();
       scene.setSurface(program, range);
       program.set('u_weights', [1, 1, 0]);
@@ -190,13 +201,15 @@ export class Renderer {
     if (sorted.length === 0) return;
     this.setFrame(this.transparent, scene, view, false);
     for (const range of sorted) {
-      scene.setSurface(this.transparent, range);
+      const program = this.programFor(range, scene, this.transparent);
+      program.use();
+      scene.setSurface(program, range);
       const material = scene.data.materials[range.material]!, covers = material.alphaMode === 2 && material.transmission <= 0;
       const state: RasterState = { depthTest: true, alpha: false, mirrored: view.mirrored, stencilRead: seeThroughBit, cull: !material.doubleSided };
       const draw = (more: RasterState, dimming: boolean, undirected: number): void => {
         apply(gl, { ...state, ...more });
-        this.transparent.set('u_dimming', dimming);
-        this.transparent.set('u_weights', [1, undirected, 1]);
+        program.set('u_dimming', dimming);
+        program.set('u_weights', [1, undirected, 1]);
         scene.draw(range);
       };
       if (!covers) draw({ blend: 'multiply' }, true, 0);

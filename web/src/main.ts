@@ -4,6 +4,8 @@ import { Input } from './input';
 import { Renderer } from './frame';
 import { Walk } from './walk';
 import { checkField, checkMover, checkPageGroups, checkScene, readPiece } from './sections';
+import { checkSharp } from './sharp_elements';
+import { sharpColumns, sharpRows } from './sharp_light';
 import { GpuScene, makeDevice } from './scene';
 import { LightsPanel } from './lights_panel';
 import { Show } from './show';
@@ -52,6 +54,7 @@ class Walkthrough {
     const show = this.show, [kind, index] = name.split(' ') as [string, string], at = Number(index);
     if (!show) return;
     if (kind === 'light' && sections.pages[0]) show.scene.setPage(at, sections.pages[0]);
+    if (kind === 'sharp' && sections.sharp) show.scene.setSharp(sections.sharp);
     if (kind === 'texture' && sections.textures[0]) show.scene.setTexture(at, sections.textures[0], false);
     if (kind === 'normal' && sections.normals[0]) show.scene.setTexture(at, sections.normals[0], true);
     if (kind === 'surround' && sections.surrounds[0]) show.scene.setSurround(at, sections.surrounds[0]);
@@ -136,6 +139,7 @@ async function run(): Promise<void> {
     fetchTo(i + kAhead);
     const sections = readPiece(await fetched[i]!, piece.file);
     checkPiece(sections, piece, most);
+    if (piece.kind === 'light') checkSharp(sections.pages[0]!, walkthrough.pieces.get('sharp 0')?.sharp);
     if (piece.kind === 'mover') checkMover(sections.movers[0]!, scene);
     if (piece.kind === 'field') checkField(sections.field!, scene);
     if (piece.kind === 'lamps') checkPageGroups(sections.pageGroups[0]!, scene, walkthrough.pieces.get(`light ${sections.pageGroups[0]!.page}`)?.pages[0]);
@@ -154,6 +158,7 @@ function checkPiece(sections: Sections, piece: Piece, most: number): void {
   const held: Record<string, unknown[]> = {
     light: sections.pages, texture: sections.textures, normal: sections.normals, surround: sections.surrounds,
     lamps: sections.pageGroups, mover: sections.movers, field: sections.field ? [sections.field] : [],
+    sharp: sections.sharp ? [sections.sharp] : [],
   };
   const found = held[piece.kind]?.length ?? 0;
   if (found !== 1) throw new PieceError(`${piece.file}: found ${found} of kind '${piece.kind}', expected one`);
@@ -165,6 +170,7 @@ function checkSizes(sections: Sections, file: string, most: number): void {
   const sizes = [...sections.textures, ...sections.normals, ...sections.pages].map((t) => [t.width, t.height]);
   for (const p of sections.pages) sizes.push([p.detailWidth, p.detailHeight]);
   for (const s of sections.surrounds) sizes.push([1.5 * s.size + 4, s.size + 64]);
+  if (sections.sharp) sizes.push([sharpColumns, sharpRows(sections.sharp)]);
   for (const [w, h] of sizes)
     if (Math.max(w!, h!) > most) throw new PieceError(`${file}: found an image of ${w} x ${h} texels, but this device holds at most ${most} a side`);
 }

@@ -31,5 +31,6 @@ export function pick(scene: GpuScene, from: Vec3, way: Vec3): Hit | undefined {
   if (!best) return undefined;
   const { t, index, u, w, page, normal } = best, uv = mesh.lightmapUvs;
   const mix = (k: number): number => [0, 1, 2].reduce((sum, c) => sum + uv[2 * mesh.indices[index + c]! + k]! * [1 - u - w, u, w][c]!, 0);
-  return { at: v.add(from, v.scale(way, t)), normal, distance: t, lux: page < 0 ? 0 : scene.luxAt(page, mix(0), mix(1)) };
+  const place = v.add(from, v.scale(way, t));
+  return { at: place, normal, distance: t, lux: page < 0 ? 0 : scene.luxAt(page, mix(0), mix(1), place, normal) };
 }

@@ -6,11 +6,14 @@ import { halfToFloat } from './bytes';
 import { cutoutMips } from './cutout_mips';
 import { meanFactor, relit, skyOfDay } from './lights';
 import { Movers } from './movers';
+import { sharpLux } from './sharp_elements';
+import { uploadLamps, uploadSharp } from './sharp_light';
 import { uploadSurround } from './surround';
 import { lobeRows, lobeTexels, makeTaps } from './kernel';
 import type { ReflectorEmitters } from './emitters';
+import type { GpuSharp } from './sharp_light';
 import type { GpuSurround } from './surround';
-import type { Emitter, EmissionTexture, Material, Page, PageGroups, Sections, Surround, Texture } from './sections';
+import type { Emitter, EmissionTexture, Material, Page, PageGroups, Sections, SharpLight, Surround, Texture } from './sections';
 import type { Bounds, Mat4, Vec3 } from './vec';
 
 export interface Range { first: number; count: number; material: number; page: number; bounds: Bounds; }
@@ -21,7 +24,7 @@ export interface GpuReflector {
 }
 export interface GpuCurved extends Range { map: number; }
 export interface GpuKernel { taps: WebGLTexture; count: number; rows: number; median: number; lobes?: WebGLTexture; }
-interface Light { light: WebGLTexture; scale: number; bytes: number; direction?: WebGLTexture; cells?: WebGLTexture; detail?: WebGLTexture; }
+interface Light { light: WebGLTexture; scale: number; bytes: number; direction?: WebGLTexture; cells?: WebGLTexture; detail?: WebGLTexture; sharpAt?: WebGLTexture; }
 
 export interface Device {
   gl: WebGL2RenderingContext;
@@ -54,6 +57,7 @@ export class GpuScene {
   private readonly pages: Light[] = [];
   private readonly shown: Page[] = [];        // as lamps shine now
   private readonly pageGroups: PageGroups[] = [];
+  private sharp?: GpuSharp & { light: SharpLight };
   factors: Vec3[];               // by light group
   private emission: number[][];               // by material; of unlit ones what shows their colour, cd/m2
   readonly unlitWhite: number;
@@ -182,6 +186,18 @@ export class GpuScene {
     this.uploadPage(groups.page);
   }
 
+  /** To be had before the pages that need it. */
+  setSharp(light: SharpLight): void {
+    const { gl } = this.device;
+    this.sharp = { light, ...uploadSharp(gl, light, this.factors, this.unit) };
+    bind(gl, 'u_sharp_words', this.sharp.words);
+    bind(gl, 'u_sharp_triangles', this.sharp.triangles);
+    bind(gl, 'u_sharp_lamps', this.sharp.lamps);
+    this.bytes += 4 * light.words.length + 16 / 3 * light.triangles.length;
+  }
+  get hasSharp(): boolean { return !!this.sharp; }
+  isSharp(range: Range): boolean { return !!this.pages[range.page]?.sharpAt; }
+
   /** By group, how many times what was baked its lamps shine: what BakedLamps of player/scene/lights.h does. */
   setLights(factors: Vec3[]): void {
     const { groups, emitters } = this.data, changed: Emitter[] = emitters.slice();
@@ -199,6 +215,10 @@ export class GpuScene {
       for (const texture of [old.polygons, old.visibility, old.seen]) this.device.gl.deleteTexture(texture);
       r.emitters = uploadEmitters(this.device.gl, this.data.reflectors[r.index]!, changed, r.reflectorFromPack, r.size, this.unit);
     }
+    if (this.sharp) {
+      this.device.gl.deleteTexture(this.sharp.lamps);
+      bind(this.device.gl, 'u_sharp_lamps', this.sharp.lamps = uploadLamps(this.device.gl, this.sharp.light, factors, this.unit));
+    }
     this.data.pages.forEach((_, i) => this.uploadPage(i));
     this.surrounds.forEach((s, i) => { s.tint = meanFactor(groups, factors, 'surrounds', i); });
     this.movers.relight();
@@ -209,7 +229,7 @@ export class GpuScene {
     if (page === this.shown[index]) return;
     this.shown[index] = page;
     const { gl } = this.device, old = this.pages[index];
-    for (const texture of [old?.light, old?.direction, old?.cells, old?.detail]) if (texture) gl.deleteTexture(texture);
+    for (const texture of [old?.light, old?.direction, old?.cells, old?.detail, old?.sharpAt]) if (texture) gl.deleteTexture(texture);
     this.bytes -= old?.bytes ?? 0;
     const before = this.bytes;
     const halves = (texels: Uint16Array, width: number, height: number): WebGLTexture => {
@@ -222,6 +242,10 @@ export class GpuScene {
       light.cells = makeTexture(gl, { width: page.width, height: page.height, format: gl.R32UI }, page.cells);
       light.detail = halves(page.detail, page.detailWidth, page.detailHeight);
       this.bytes += page.cells.byteLength;
+    }
+    if (page.sharpAt) {
+      light.sharpAt = makeTexture(gl, { width: page.width, height: page.height, format: gl.R32UI }, page.sharpAt);
+      this.bytes += page.sharpAt.byteLength;
     }
     light.bytes = this.bytes - before;
     this.pages[index] = light;
@@ -338,14 +362,16 @@ export class GpuScene {
     program.set('u_detailed', !!light?.detail);
     bind(gl, 'u_cells', light?.cells ?? this.zero);
     bind(gl, 'u_detail', light?.detail ?? this.white);
+    bind(gl, 'u_sharp_at', light?.sharpAt ?? this.zero);
   }
 
-  /** Irradiance at a vertex-interpolated place of a page, lux. */
-  luxAt(page: number, s: number, t: number): number {
+  /** Irradiance at a vertex-interpolated place of a page, and of the scene, lux. */
+  luxAt(page: number, s: number, t: number, place: Vec3, normal: Vec3): number {
     const p = this.shown[page];
     if (!p) return 0;
     const x = Math.min(Math.floor(s * p.width), p.width - 1), y = Math.min(Math.floor(t * p.height), p.height - 1), at = 3 * (y * p.width + x);
-    return p.scale * (0.2126 * halfToFloat(p.light[at]!) + 0.7152 * halfToFloat(p.light[at + 1]!) + 0.0722 * halfToFloat(p.light[at + 2]!));
+    const sharp = p.sharpAt && this.sharp ? sharpLux(this.sharp.light, p, [s, t], place, normal, this.factors) : 0;
+    return sharp + p.scale * (0.2126 * halfToFloat(p.light[at]!) + 0.7152 * halfToFloat(p.light[at + 1]!) + 0.0722 * halfToFloat(p.light[at + 2]!));
   }
 }
 

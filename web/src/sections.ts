@@ -5,6 +5,7 @@ import {
   readMesh, readMaterial, readEmissionTexture, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readDay, readCurved, readSurround, list, mostGroups,
 } from './elements';
 import { readField, readMover } from './mover_elements';
+import { readSharp } from './sharp_elements';
 import type { LightField, Mover, Page, PageGroups, Sections } from './types';
 
 export type * from './types';
@@ -20,6 +21,7 @@ function readSection(kind: string, count: number, r: ByteReader, out: Sections):
     case 'TEXR': out.textures.push(...list(r, count, readTexture)); break;
     case 'NTEX': out.normals.push(...list(r, count, readTexture)); break;
     case 'LMAP': out.pages.push(...list(r, count, readPage)); break;
+    case 'SHRP': out.sharp = readSharp(r); break;
     case 'RFLT': out.reflectors = list(r, count, readReflector); break;
     case 'EMIT': out.emitters = list(r, count, readEmitter); break;
     case 'KERN': out.kernels = list(r, count, readKernel); break;

@@ -12,6 +12,7 @@ import lib_normal_map from '../../shaders/lib/normal_map.glsl';
 import lib_octahedral from '../../shaders/lib/octahedral.glsl';
 import lib_reflectance from '../../shaders/lib/reflectance.glsl';
 import lib_shading from '../../shaders/lib/shading.glsl';
+import lib_sharp_light from '../../shaders/lib/sharp_light.glsl';
 import lib_surround from '../../shaders/lib/surround.glsl';
 import lib_taken_light from '../../shaders/lib/taken_light.glsl';
 import lib_texture_along from '../../shaders/lib/texture_along.glsl';
@@ -70,6 +71,7 @@ const files: Record<string, string> = {
   'lib/octahedral.glsl': lib_octahedral,
   'lib/reflectance.glsl': lib_reflectance,
   'lib/shading.glsl': lib_shading,
+  'lib/sharp_light.glsl': lib_sharp_light,
   'lib/surround.glsl': lib_surround,
   'lib/taken_light.glsl': lib_taken_light,
   'lib/texture_along.glsl': lib_texture_along,
@@ -121,7 +123,7 @@ const head = [
 ].join('\n');
 
 /** A shader with all that it includes, each file once, as the player assembles it. */
-export function assembleShader(name: string, define = ''): string {
+export function assembleShader(name: string, defines = ''): string {
   const done = new Set<string>();
   const append = (file: string): string => {
     if (done.has(file)) return '';
@@ -130,5 +132,5 @@ export function assembleShader(name: string, define = ''): string {
     if (text === undefined) throw new Error(`found no shader ${file}`);
     return text.replace(/^#include "([^"]+)".*$/gm, (_, included: string) => append(included));
   };
-  return head + (define ? `#define ${define}\n` : '') + append(name);
+  return head + defines.split(' ').filter(Boolean).map((d) => `#define ${d}\n`).join('') + append(name);
 }

@@ -21,7 +21,13 @@ export interface Texture {
 export interface Page {
   width: number; height: number; scale: number; light: Uint16Array; direction?: Uint16Array;
   detailWidth: number; detailHeight: number; cells?: Uint32Array; detail?: Uint16Array;
+  sharpAt?: Uint32Array;  // its light is then without sharp light
 }
+export interface SharpLamp {
+  sun: boolean; position: Vec3; direction: Vec3; intensity: Vec3; cosOuter: number; inverseFalloff: number; angularRadius: number; group: number;
+}
+/** triangles: nine numbers each. records: by word, whether one begins there. */
+export interface SharpLight { lamps: SharpLamp[]; words: Uint32Array; triangles: Float32Array; records: Uint8Array; }
 export interface Reflector {
   name: string; material: number; packFromReflector: Float64Array; lower: number[]; upper: number[]; flatness: number;
   indices: Uint32Array; nodesX: number; nodesY: number; emitters: Uint32Array; visibility: Uint8Array;
@@ -74,6 +80,7 @@ export interface Day { clock: string; shown: number; hours: { hour: number; grou
 
 export interface Sections {
   day?: Day;
+  sharp?: SharpLight;
   movers: Mover[]; field?: LightField;
   curved: CurvedReflector[]; surrounds: Surround[];
   groups: LightGroup[]; pageGroups: PageGroups[]; sky: number[]; mesh?: Mesh; materials: Material[]; emissionTextures: EmissionTexture[]; textures: Texture[]; normals: Texture[]; pages: Page[];

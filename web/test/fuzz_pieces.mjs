@@ -13,10 +13,10 @@ if (!existsSync(join(web, 'node_modules/esbuild'))) {
 }
 const { build } = await import('esbuild');
 const { outputFiles } = await build({
-  stdin: { contents: `export * from './sections'; export { PieceError } from './bytes';`, resolveDir: join(web, 'src'), loader: 'ts' },
+  stdin: { contents: `export * from './sections'; export { checkSharp } from './sharp_elements'; export { PieceError } from './bytes';`, resolveDir: join(web, 'src'), loader: 'ts' },
   bundle: true, format: 'esm', write: false,
 });
-const { readPiece, checkScene, checkMover, checkField, checkPageGroups, PieceError } =
+const { readPiece, checkScene, checkMover, checkField, checkPageGroups, checkSharp, PieceError } =
   await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString('base64')}`);
 const { decompress } = await import(join(web, 'node_modules/fzstd/esm/index.mjs'));
 
@@ -57,8 +57,10 @@ function broken(bytes) {
 }
 
 const kinds = folder.manifest.pieces.map((p) => p.kind), scene = readPiece(folder.bytes('scene'), 'scene');
+const sharp = kinds.includes('sharp') ? readPiece(folder.bytes('sharp'), 'sharp').sharp : undefined;
 const whole = (kind, sections) => {
   if (kind === 'scene') checkScene(sections, 1, 1, 1);
+  if (kind === 'light') for (const p of sections.pages) checkSharp(p, sharp);
   for (const m of sections.movers) checkMover(m, scene);
   if (sections.field) checkField(sections.field, scene);
   for (const g of sections.pageGroups) checkPageGroups(g, scene, scene.pages[g.page]);
