@@ -7,14 +7,16 @@ uniform highp sampler2D u_sharp_lamps;      // a row each, see lamp_at()
 const uint kSharpSplit = 0xffffffffu;
 const int kMostSharpSplits = 5;
 const int kSharpColumns = 4095;  // a multiple of three
-// Of a disk of radius 1: directions of equal shares of it (Vogel 1979), and the side of a square as large as a share.
+const float kDiskStep = 0.443;   // the side of a square as large as a share of a disk of radius 1
+#ifdef SUNS                      // some lamps are
+#define SHARES vec4
+const int kDiskQuads = 4;
+// Of that disk: directions of equal shares of it (Vogel 1979).
 const vec4 kDiskX[4] = vec4[4](vec4(0.177, -0.226, 0.035, 0.285), vec4(-0.522, 0.495, -0.165, -0.316), vec4(0.685, -0.712, 0.343, 0.254), vec4(-0.765, 0.897, -0.548, -0.126));
 const vec4 kDiskY[4] = vec4[4](vec4(0.000, 0.207, -0.394, 0.371), vec4(-0.092, -0.315, 0.616, -0.608), vec4(0.250, 0.294, -0.734, 0.809), vec4(-0.443, -0.197, 0.779, -0.976));
-const float kDiskStep = 0.443;
-#ifdef SUNS  // some lamps are
-const int kDiskQuads = 4;
 #else
-const int kDiskQuads = 1;  // whose directions are all the same
+#define SHARES float
+const int kDiskQuads = 1;
 #endif
 const float kMostSharpLux = 1.5e5;  // close to a lamp: half floats hold what white reflects of it
 
@@ -68,15 +70,22 @@ SharpEdge edge_from(vec3 a, vec3 ab, SharpLamp lamp, vec3 u, vec3 v, float turn,
   return SharpEdge(turn * dot(across, a), slope, 1.0 / (ends ? width : rounding), ends ? 0.5 : 2.0);
 }
 
-vec4 inside(SharpEdge e, vec4 x, vec4 y) {
-  return clamp((e.inside + e.slope.x * x + e.slope.y * y) * e.inverse + e.bias, 0.0, 1.0);
+SHARES inside(SharpEdge e, int quad) {
+#ifdef SUNS
+  return clamp((e.inside + e.slope.x * kDiskX[quad] + e.slope.y * kDiskY[quad]) * e.inverse + e.bias, 0.0, 1.0);
+#else
+  return clamp(e.inside * e.inverse + e.bias, 0.0, 1.0);
+#endif
 }
 
 // How much of a lamp `count` triangles leave, whose words begin at `first`. dx, dy: from a pixel to the next.
 float sharp_visible(SharpLamp lamp, uint first, uint count, vec3 p, vec3 dx, vec3 dy) {
   vec3 u = normalize(abs(lamp.to.x) < abs(lamp.to.y) ? vec3(0.0, lamp.to.z, -lamp.to.y) : vec3(-lamp.to.z, 0.0, lamp.to.x));
   vec3 v = cross(lamp.to, u);
-  vec4 covered[4] = vec4[4](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+  // Pieces of one surface add up where they meet; what faces the lamp and what turns from it, as the two sides of a body
+  // do, cover the same.
+  SHARES front[kDiskQuads], back[kDiskQuads];
+  for (int j = 0; j < kDiskQuads; ++j) front[j] = back[j] = SHARES(0.0);
   for (uint k = 0u; k < count; ++k) {
     uint word = sharp_word(first + k);
     int at = 3 * int(word & 0x1fffffffu);
@@ -93,15 +102,20 @@ float sharp_visible(SharpLamp lamp, uint first, uint count, vec3 p, vec3 dx, vec
     SharpEdge e0 = edge_from(a, ab, lamp, u, v, turn, (word & 0x20000000u) != 0u, dx, dy);
     SharpEdge e1 = edge_from(b, bc, lamp, u, v, turn, (word & 0x40000000u) != 0u, dx, dy);
     SharpEdge e2 = edge_from(c, ca, lamp, u, v, turn, (word & 0x80000000u) != 0u, dx, dy);
+    float faces = step(0.0, dot(normal, lamp.to - lamp.near * a));
     for (int j = 0; j < kDiskQuads; ++j) {
-      vec4 x = kDiskX[j], y = kDiskY[j];
       // Exact between opposite edges, so that what is thinner than a pixel fades.
-      covered[j] = max(covered[j], inside(e0, x, y) + inside(e1, x, y) + inside(e2, x, y) - 2.0);
+      SHARES in_all = max(inside(e0, j) + inside(e1, j) + inside(e2, j) - 2.0, SHARES(0.0));
+      front[j] += faces * in_all, back[j] += (1.0 - faces) * in_all;
     }
   }
-  vec4 sum = vec4(0.0);
-  for (int j = 0; j < kDiskQuads; ++j) sum += covered[j];
-  return 1.0 - dot(sum, vec4(0.25 / float(kDiskQuads)));
+  SHARES left = SHARES(0.0);
+  for (int j = 0; j < kDiskQuads; ++j) left += 1.0 - min(max(front[j], back[j]), 1.0);
+#ifdef SUNS
+  return dot(left, vec4(0.25 / float(kDiskQuads)));
+#else
+  return left;
+#endif
 }
 
 // lux at a place of a page, uv in [0,1]. normal: unit, by which light is received.
