@@ -27,7 +27,7 @@ std::vector<Vec3> sharp_at_points(const SharpLight& light, const LightmapPage& p
   for_each_parallel((points.size() + kPointsAtOnce - 1) / kPointsAtOnce, core_count(), [&](std::size_t run) {
     for (std::size_t k = run * kPointsAtOnce; k < std::min(points.size(), (run + 1) * kPointsAtOnce); ++k)
       out[k] =
-          sharp_irradiance(light, page, (points[k].at + 0.5f) / size, points[k].position, points[k].normal, factors);
+          sharp_irradiance(light, page, {(points[k].at + 0.5f) / size, points[k].position, points[k].normal}, factors);
   });
   return out;
 }
