@@ -1,6 +1,7 @@
 #include "bake/radiosity/shadow_casters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -31,7 +32,7 @@ bool comes_before(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-ShadowCasters::ShadowCasters(const Scene& scene) {
+ShadowCasters::ShadowCasters(const Scene& scene, std::span<const std::uint32_t> lights) {
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const UVec3& v = scene.triangles[t];
     triangles_.push_back({DVec3(scene.positions[v.x]), DVec3(scene.positions[v.y]), DVec3(scene.positions[v.z])});
@@ -41,6 +42,8 @@ ShadowCasters::ShadowCasters(const Scene& scene) {
     if (!material.unlit && !doubled) order_.push_back(t);
   }
   join_edges(scene);
+  find_bodies();
+  for (const std::uint32_t light : lights) spared_.push_back(spared_by(scene.lights[light]));
   if (!order_.empty()) add_node(0, order_.size());
 }
 
@@ -67,6 +70,57 @@ void ShadowCasters::join_edges(const Scene& scene) {
   }
 }
 
+// Opaque surfaces without an open edge, and wound alike all over.
+void ShadowCasters::find_bodies() {
+  body_.assign(triangles_.size(), ~0u);
+  std::vector<std::uint32_t> of(triangles_.size(), ~0u), open;
+  for (const std::uint32_t first : order_) {
+    if (of[first] != ~0u) continue;
+    const auto number = static_cast<std::uint32_t>(volume_.size());
+    bool closed = true;
+    double volume = 0;
+    std::vector<std::uint32_t> body;
+    of[first] = number, open.push_back(first);
+    while (!open.empty()) {
+      const std::uint32_t t = open.back();
+      open.pop_back(), body.push_back(t);
+      const auto& [a, b, c] = triangles_[t];
+      volume += glm::dot(a - triangles_[first][0], glm::cross(b - triangles_[first][0], c - triangles_[first][0]));
+      closed = closed && !filters_[t];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t next = beyond_[3 * std::size_t{t} + k];
+        closed = closed && next != ~0u && alike_[3 * std::size_t{t} + k];
+        if (next != ~0u && of[next] == ~0u) of[next] = number, open.push_back(next);
+      }
+    }
+    if (closed && volume != 0)
+      for (const std::uint32_t t : body) body_[t] = number;
+    volume_.push_back(volume);
+  }
+}
+
+std::vector<bool> ShadowCasters::spared_by(const Light& light) const {
+  const bool sun = light.type == LightType::kDirectional;
+  const DVec3 place(sun ? -light.direction : light.position);
+  // How often each body winds about a lamp, times 2π, by solid angles (Van Oosterom and Strackee 1983).
+  std::vector<double> about(volume_.size());
+  for (std::uint32_t t = 0; !sun && t < triangles_.size(); ++t) {
+    if (body_[t] == ~0u) continue;
+    const DVec3 a = triangles_[t][0] - place, b = triangles_[t][1] - place, c = triangles_[t][2] - place;
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    about[body_[t]] += std::atan2(glm::dot(a, glm::cross(b, c)),
+                                  la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+  }
+  std::vector<bool> spared(triangles_.size());
+  for (const std::uint32_t t : order_) {
+    if (body_[t] == ~0u || std::abs(about[body_[t]]) > 1) continue;
+    const auto& [a, b, c] = triangles_[t];
+    const double faces = glm::dot(glm::cross(b - a, c - a), sun ? place : place - a);
+    spared[t] = faces * volume_[body_[t]] < 0;
+  }
+  return spared;
+}
+
 // Halves by the longest side of the boxes' middles.
 void ShadowCasters::add_node(std::size_t first, std::size_t count) {
   const std::size_t at = nodes_.size();
@@ -90,7 +144,7 @@ void ShadowCasters::add_node(std::size_t first, std::size_t count) {
   add_node(first + count / 2, count - count / 2);
 }
 
-std::vector<std::uint32_t> ShadowCasters::in(const ShadowBeam& beam) const {
+std::vector<std::uint32_t> ShadowCasters::in(const ShadowBeam& beam, std::size_t lamp) const {
   std::vector<std::uint32_t> found, open;
   if (!nodes_.empty()) open.push_back(0);
   while (!open.empty()) {
@@ -103,7 +157,7 @@ std::vector<std::uint32_t> ShadowCasters::in(const ShadowBeam& beam) const {
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-      if (beam.may_meet(triangles_[order_[i]])) found.push_back(order_[i]);
+      if (!spared_[lamp][order_[i]] && beam.may_meet(triangles_[order_[i]])) found.push_back(order_[i]);
   }
   std::ranges::sort(found);
   return found;

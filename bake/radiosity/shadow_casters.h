@@ -9,13 +9,15 @@ namespace oriel {
 
 class ShadowCasters {
  public:
-  explicit ShadowCasters(const Scene& scene);
+  // lights: whose shadows are asked for, into Scene::lights.
+  ShadowCasters(const Scene& scene, std::span<const std::uint32_t> lights);
 
   const BeamTriangle& triangle(std::uint32_t t) const { return triangles_[t]; }
   // Whether it lets light through somewhere.
   bool is_filter(std::uint32_t t) const { return filters_[t]; }
-  // Those that may stand in the beam's way, ascending.
-  std::vector<std::uint32_t> in(const ShadowBeam& beam) const;
+  // Those that may stand in the way of a beam to lights[lamp], ascending. Of a closed body that does not hold the lamp
+  // the side that faces it is enough: no ray passes the other alone.
+  std::vector<std::uint32_t> in(const ShadowBeam& beam, std::size_t lamp) const;
   // Whether a shadow may end at edge k, from corner k to k + 1: no other triangle continues the surface there, or one
   // that faces the lamp with its other side, or that lets light through where this one does not.
   bool ends_shadow(std::uint32_t t, std::size_t k, const ShadowBeam& beam) const;
@@ -26,6 +28,8 @@ class ShadowCasters {
     std::uint32_t first = 0, count = 0;  // into order_; count 0: two children, the next node and `first`
   };
   void join_edges(const Scene& scene);
+  void find_bodies();
+  std::vector<bool> spared_by(const Light& light) const;
   void add_node(std::size_t first, std::size_t count);
 
   std::vector<BeamTriangle> triangles_;
@@ -35,6 +39,9 @@ class ShadowCasters {
   // By triangle and edge: the triangle beyond it, ~0u: none or several; and whether both wind the same way.
   std::vector<std::uint32_t> beyond_;
   std::vector<bool> alike_;
+  std::vector<std::uint32_t> body_;        // by triangle, ~0u: of no closed body
+  std::vector<double> volume_;             // by body: its sign is that of fronts outwards
+  std::vector<std::vector<bool>> spared_;  // by lamp and triangle: another one of its body is in the way as well
 };
 
 }  // namespace oriel

@@ -74,9 +74,10 @@ class TileLister {
     const Square tile{DVec2(lower), kTile};
     std::vector<Unsettled> lamps;
     for (std::uint32_t lamp = 0; lamp < sharp_.lights.size(); ++lamp) {
+      if (!chart_.sharp[sharp_.lights[lamp]]) continue;
       const ShadowBeam beam = beam_to(lamp, tile);
       if (!beam.faces_lamp() || is_beyond_cone(lamp, tile)) continue;
-      lamps.push_back({lamp, casters_.in(beam)});
+      lamps.push_back({lamp, casters_.in(beam, lamp)});
       std::erase_if(lamps.back().casters, [&](std::uint32_t t) { return scene_.atlas.chart[t] == chart_number_; });
     }
     fill(tile, lower, std::move(lamps), {}, records);
@@ -355,7 +356,7 @@ std::vector<TileOfChart> tiles_of(const SharpCharts& sharp) {
 
 Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp, const Stage& stage) {
   const Scene& of = scene.transport.accel.scene();
-  const ShadowCasters casters(of);
+  const ShadowCasters casters(of, sharp.lights);
   const auto charts = charts_at(scene);
   const std::vector<TileOfChart> tiles = tiles_of(sharp);
   std::vector<TileRecords> listed(tiles.size());

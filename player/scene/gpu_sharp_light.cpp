@@ -20,9 +20,11 @@ GpuSharpLight GpuSharpLight::upload(const SharpLight& light) {
   GpuSharpLight out;
   if (light.empty()) return out;
   std::vector<Vec4> corners;
-  corners.reserve(3 * light.triangles.size());
-  for (const std::array<Vec3, 3>& triangle : light.triangles)
+  corners.reserve(4 * light.triangles.size());
+  for (const std::array<Vec3, 3>& triangle : light.triangles) {
     for (const Vec3& corner : triangle) corners.emplace_back(corner, 0);
+    corners.emplace_back(0);
+  }
   out.words = rows_of(gpu::kR32ui, light.words);
   out.triangles = rows_of(gpu::kRgba32f, std::move(corners));
   out.suns = std::ranges::any_of(light.lamps, &SharpLamp::sun);

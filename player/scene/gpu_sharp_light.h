@@ -8,7 +8,7 @@
 
 namespace oriel {
 
-inline constexpr std::size_t kSharpColumns = 4095;  // of words and of triangles' corners
+inline constexpr std::size_t kSharpColumns = 4096;  // of words, and of triangles by four texels each
 
 struct GpuSharpLight {
   gpu::Texture2d words, triangles, lamps;  // none where there is no such light

@@ -1,12 +1,11 @@
 // Direct light of points, spots and suns by the pixel (formats/assets/sharp_light.h, docs/notes/sharp-light.md).
 uniform highp usampler2D u_sharp_at;        // by texel of the page
-uniform highp usampler2D u_sharp_words;     // kSharpColumns a row
-uniform highp sampler2D u_sharp_triangles;  // three texels each, likewise
+uniform highp usampler2D u_sharp_words;     // 4096 a row
+uniform highp sampler2D u_sharp_triangles;  // likewise, four texels each: corners, and one unused
 uniform highp sampler2D u_sharp_lamps;      // a row each, see lamp_at()
 
 const uint kSharpSplit = 0xffffffffu;
 const int kMostSharpSplits = 5;
-const int kSharpColumns = 4095;  // a multiple of three
 const float kDiskStep = 0.443;   // the side of a square as large as a share of a disk of radius 1
 #ifdef SUNS                      // some lamps are
 #define SHARES vec4
@@ -27,9 +26,9 @@ struct SharpLamp {
   vec3 light;    // lux, without shadows
 };
 
-uint sharp_word(uint i) {
-  return texelFetch(u_sharp_words, ivec2(int(i) % kSharpColumns, int(i) / kSharpColumns), 0).r;
-}
+ivec2 sharp_texel(uint i) { return ivec2(int(i & 4095u), int(i >> 12u)); }
+
+uint sharp_word(uint i) { return texelFetch(u_sharp_words, sharp_texel(i), 0).r; }
 
 vec3 color_of_word(uint code) {
   return vec3(code & 511u, code >> 9u & 511u, code >> 18u & 511u) * exp2(float(code >> 27u) - 24.0);
@@ -88,8 +87,7 @@ float sharp_visible(SharpLamp lamp, uint first, uint count, vec3 p, vec3 dx, vec
   for (int j = 0; j < kDiskQuads; ++j) front[j] = back[j] = SHARES(0.0);
   for (uint k = 0u; k < count; ++k) {
     uint word = sharp_word(first + k);
-    int at = 3 * int(word & 0x1fffffffu);
-    ivec2 texel = ivec2(at % kSharpColumns, at / kSharpColumns);
+    ivec2 texel = sharp_texel(4u * (word & 0x1fffffffu));
     vec3 a = texelFetch(u_sharp_triangles, texel, 0).xyz;
     vec3 b = texelFetch(u_sharp_triangles, texel + ivec2(1, 0), 0).xyz;
     vec3 c = texelFetch(u_sharp_triangles, texel + ivec2(2, 0), 0).xyz;

@@ -109,7 +109,7 @@ Result<std::vector<LightmapPage>> bake_reflected(const LightmapScene& scene, con
   for (std::size_t i = 0; i < known->additional.size(); ++i) reflected.value[i] -= known->additional[i];
   const Estimate none{std::vector<Vec3>(texels), std::vector<Vec3>(texels)};
   Radiosity light = empty_radiosity(scene.map, false);
-  write_texels({known->texels, none, reflected, {}, {}}, light);
+  write_texels({known->texels, none, reflected, {}, {}, {}}, light);
   for (std::size_t p = 0; p < scene.map.size(); ++p) {
     if (options.fit_texels) fit_texels(scene.atlas, scene.map[p], light.pages[p]);
     fill_buried(scene.atlas, scene.map[p], light.pages[p]);

@@ -370,7 +370,7 @@ TEST(CheckDrawable, RefusesSharpLightThatTexturesCannotHold) {
   device.texture_size = 4096, device.array_layers = 64;
   Pack pack = floor_below_board();
   EXPECT_TRUE(check_drawable(pack, device));
-  pack.sharp_light.words.resize(4095 * 4096 + 1);
+  pack.sharp_light.words.resize(4096 * 4096 + 1);
   EXPECT_FALSE(check_drawable(pack, device));
   pack.sharp_light.words.resize(4);
   device.texture_size = 2048;

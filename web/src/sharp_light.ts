@@ -5,16 +5,16 @@ import { powerOf } from './sharp_elements';
 import type { SharpLight } from './types';
 import type { Vec3 } from './vec';
 
-export const sharpColumns = 4095;  // of its textures
+export const sharpColumns = 4096;  // of its textures
 const rowsFor = (n: number): number => Math.max(Math.ceil(n / sharpColumns), 1);
-export const sharpRows = (light: SharpLight): number => Math.max(rowsFor(light.words.length), rowsFor(light.triangles.length / 3));
+export const sharpRows = (light: SharpLight): number => Math.max(rowsFor(light.words.length), rowsFor(light.triangles.length / 9 * 4));
 
 export interface GpuSharp { words: WebGLTexture; triangles: WebGLTexture; lamps: WebGLTexture; }
 export function uploadSharp(gl: WebGL2RenderingContext, light: SharpLight, factors: Vec3[], unit: number): GpuSharp {
-  const corners = light.triangles.length / 3, rows = rowsFor(light.words.length), ofTriangles = rowsFor(corners);
+  const corners = light.triangles.length / 3, rows = rowsFor(light.words.length), ofTriangles = rowsFor(corners / 3 * 4);
   const words = new Uint32Array(rows * sharpColumns), triangles = new Float32Array(4 * ofTriangles * sharpColumns);
   words.set(light.words);
-  for (let i = 0; i < corners; ++i) triangles.set(light.triangles.subarray(3 * i, 3 * i + 3), 4 * i);
+  for (let i = 0; i < corners; ++i) triangles.set(light.triangles.subarray(3 * i, 3 * i + 3), 4 * (i + Math.floor(i / 3)));
   return {
     words: makeTexture(gl, { width: sharpColumns, height: rows, format: gl.R32UI }, words),
     triangles: makeTexture(gl, { width: sharpColumns, height: ofTriangles, format: gl.RGBA32F }, triangles),

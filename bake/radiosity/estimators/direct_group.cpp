@@ -29,7 +29,7 @@ void DirectGroup::run(DirectSums& sums) {
   sample_polygon_lights();
   for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
     sample_punctual_light(l);
-    if (d_.sharp_ && d_.sharp_->is_sharp[l]) finish_sharp(l);
+    if (d_.sharp_) finish_sharp(l);
     finish_light(Vec3(1), scene().lights[l].light_group, hours_of(scene().lights[l]), per_half_);
   }
   const VirtualLights& mirrored = d_.t_.lights.mirrored();

@@ -28,12 +28,14 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
     return list.subspan(g * kTexelsATask, std::min(kTexelsATask, list.size() - g * kTexelsATask));
   };
   UnitLoop loop{.stage = "direct light", .count = (list.size() + kTexelsATask - 1) / kTexelsATask};
-  const std::size_t punctual = many_punctual_ ? DirectGroup::kPicks : t_.accel.scene().lights.size();
+  const auto scene_lights = static_cast<std::uint32_t>(t_.accel.scene().lights.size());
+  const std::size_t punctual = many_punctual_ ? DirectGroup::kPicks : scene_lights;
   const std::size_t frosted = 2 * DirectGroup::kFrosted * std::min<std::size_t>(16, t_.lights.frosted().size());
   loop.rays = static_cast<double>(kTexelsATask * kHalves * (polygons_.size() + punctual + frosted)) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) {
     std::vector<char> apart;
-    for (const std::uint32_t t : part(g)) apart.push_back(sharp_ && sharp_->charts[texels_.chart[t]].flat);
+    for (const std::uint32_t t : part(g))
+      for (std::uint32_t l = 0; sharp_ && l < scene_lights; ++l) apart.push_back(sharp_->apart(l, texels_.chart[t]));
     key(part(g), per_half, !sums.moments.empty(), texels_.eyes, apart, part_);
   };
   loop.compute = [&](std::size_t g) {

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/assets/sharp_light.h"
+#include "bake/trace/punctual.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
 // A sun's radius up to which its light is sharp: a blocker a metre away then has a penumbra of a texel of 10 cm.
 constexpr float kWidestSun_rad = 0.05f;
-constexpr std::size_t kMostSharp = 256;  // lights, as DirectLight visits one by one
+constexpr std::size_t kMostLights = 256;  // that DirectLight visits one by one
+constexpr std::size_t kMostOfChart = 16;  // a frame of one chart takes 40 ms more for each (docs/notes/sharp-light.md)
 // How far corners may lie off the chart's plane and grid, in texels, and normals off the plane's: a degree, as charts
 // are called flat.
 constexpr double kOffGrid = 0.02, kFlatCosine = 0.9998;
@@ -66,15 +68,45 @@ void add_to_chart(const Scene& scene, const Atlas& atlas, std::uint32_t triangle
   }
 }
 
+// The most that a lamp may bring to a chart, lux: at its corners and middle, and at the foot of the lamp.
+double most_light(const Scene& scene, const Light& light, const FlatChart& chart) {
+  if (light.type == LightType::kDirectional)
+    return luminance(light.intensity) * std::max(0.0, -glm::dot(DVec3(light.direction), chart.normal));
+  const DVec3 to = DVec3(light.position) - chart.origin;
+  if (!(glm::dot(to, chart.normal) > 0)) return 0;
+  const DVec2 lower(chart.lower), upper(chart.upper);
+  const DVec2 foot(glm::dot(to, chart.along_x) / glm::dot(chart.along_x, chart.along_x),
+                   glm::dot(to, chart.along_y) / glm::dot(chart.along_y, chart.along_y));
+  double most = 0;
+  for (const DVec2& at : {lower, upper, DVec2(lower.x, upper.y), DVec2(upper.x, lower.y), 0.5 * (lower + upper),
+                          glm::clamp(foot, lower, upper)}) {
+    const DVec3 way = DVec3(light.position) - chart.at(at);
+    const double d2 = std::max(glm::dot(way, way), 1e-12);
+    const Vec3 leaves = punctual_intensity(scene, light, Vec3(-way / std::sqrt(d2)));
+    most = std::max(most, double{luminance(leaves)} * glm::dot(way, chart.normal) / (d2 * std::sqrt(d2)));
+  }
+  return most;
+}
+
+void choose_lamps(const Scene& scene, std::span<const std::uint32_t> lights, FlatChart& chart) {
+  std::vector<std::pair<double, std::uint32_t>> by_light;
+  for (const std::uint32_t l : lights)
+    if (const double most = most_light(scene, scene.lights[l], chart); most > 0) by_light.emplace_back(-most, l);
+  std::ranges::sort(by_light);
+  if (by_light.size() > kMostOfChart) by_light.resize(kMostOfChart);
+  chart.sharp.resize(scene.lights.size());
+  for (const auto& [most, l] : by_light) chart.sharp[l] = true;
+  chart.flat = !by_light.empty();
+}
+
 }  // namespace
 
 SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas) {
   SharpCharts out;
   out.charts.resize(atlas.chart_count);
-  out.is_sharp.resize(scene.lights.size());
-  if (scene.lights.size() > kMostSharp) return out;
+  if (scene.lights.size() > kMostLights) return out;
   for (std::uint32_t l = 0; l < scene.lights.size(); ++l)
-    if (may_be_sharp(scene.lights[l])) out.is_sharp[l] = true, out.lights.push_back(l);
+    if (may_be_sharp(scene.lights[l])) out.lights.push_back(l);
   if (out.lights.empty()) return out;
   // The grid is that of the chart's largest triangle, by which slivers are judged.
   std::vector<std::uint32_t> largest(atlas.chart_count, ~0u);
@@ -88,6 +120,8 @@ SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas) {
   for (std::uint32_t t = 0; t < atlas.chart.size(); ++t)
     if (atlas.chart[t] != ~0u && atlas.page[t] >= 0 && out.charts[atlas.chart[t]].flat)
       add_to_chart(scene, atlas, t, out.charts[atlas.chart[t]]);
+  for (FlatChart& chart : out.charts)
+    if (chart.flat) choose_lamps(scene, out.lights, chart);
   return out;
 }
 

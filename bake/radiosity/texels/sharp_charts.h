@@ -15,6 +15,7 @@ struct FlatChart {
   DVec3 origin{0}, along_x{0}, along_y{0};
   DVec3 normal{0};           // unit, of the fronts
   UVec2 lower{0}, upper{0};  // texels that it touches: [lower, upper)
+  std::vector<bool> sharp;   // by Scene::lights: whether its light here is computed by pixel
 
   DVec3 at(const DVec2& texel) const { return origin + texel.x * along_x + texel.y * along_y; }
 };
@@ -22,14 +23,15 @@ struct FlatChart {
 struct SharpCharts {
   std::vector<FlatChart> charts;  // by Atlas::chart
   std::vector<std::uint32_t>
-      lights;                  // Scene::lights, in the order of SharpLight::lamps; none: all light is the texels'
-  std::vector<bool> is_sharp;  // by Scene::lights
+      lights;  // Scene::lights, in the order of SharpLight::lamps; none: all light is the texels'
 
-  bool apart(std::uint32_t light, std::uint32_t chart) const { return is_sharp[light] && charts[chart].flat; }
+  bool apart(std::uint32_t light, std::uint32_t chart) const {
+    return charts[chart].flat && charts[chart].sharp[light];
+  }
 };
 
 // Lamps with a measured profile stay in texels, wide suns too, whose shadows have no edges that texels lose, and the
-// suns of a day.
+// suns of a day. A chart has its brightest few: each costs the time of a frame.
 SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas);
 
 }  // namespace oriel

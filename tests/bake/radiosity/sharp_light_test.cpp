@@ -184,7 +184,7 @@ TEST(SharpLight, SurvivesLampsInAndOnThings) {
   for (std::size_t k = 0; k < 200; ++k) lights.push_back(point_at({-2.9f + 0.029f * static_cast<float>(k), 2.5f, -2}));
   for (Light& light : lights) light.intensity *= 0.01f;
   const Baked b = test::bake(cluttered(lights), 0.3f, sharp_options());
-  EXPECT_LT(b.radiosity.sharp_light.words.size(), 4'000'000u);
+  EXPECT_LT(b.radiosity.sharp_light.words.size(), 1'000'000u) << "a chart has its sixteen brightest";
   EXPECT_EQ(b.radiosity.sharp_light.lamps.size(), 207u) << "a sun of 20° has no edges";
   b.each_texel([&](const LightmapPage& page, std::uint32_t texel, std::uint32_t) {
     EXPECT_TRUE(oriel::is_finite(page.irradiance[texel]));
