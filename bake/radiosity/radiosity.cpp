@@ -89,12 +89,27 @@ std::vector<std::vector<bool>> cells_at(const Seams& seams, std::span<const Ligh
   return at;
 }
 
+// Where one side's light is partly computed by pixel and the other's is not, texels must differ.
+void leave_out_sharp_ends(const RadiosityTask& task, Seams& seams) {
+  if (task.sharp == nullptr) return;
+  const auto charts = charts_of_texels(task.atlas, task.map);
+  const auto lamps_at = [&](const SeamPoint& point, std::size_t side) {
+    const std::size_t texel =
+        std::size_t(point.place[side].y) * task.map[point.page[side]].width + std::size_t(point.place[side].x);
+    const std::uint32_t chart = charts[point.page[side]][texel];
+    const bool flat = chart != ~0u && task.sharp->charts[chart].flat;
+    return flat ? task.sharp->charts[chart].sharp : std::vector<bool>();
+  };
+  std::erase_if(seams.points, [&](const SeamPoint& point) { return lamps_at(point, 0) != lamps_at(point, 1); });
+}
+
 Status stitch_lightmap(const RadiosityTask& task, Radiosity& light) {
   const auto over = [&] { return task.options.left_of_all() <= 0; };
   Seams seams;
   ORIEL_TRY(const bool found,
             done_in_time(task.context, task.options.left_of_all ? over : std::function<bool()>(), [&]() -> Status {
               ORIEL_TRY(seams, find_seams(task.transport, task.atlas, light.pages, task.quick));
+              leave_out_sharp_ends(task, seams);
               return {};
             }));
   if (found && seams.points.empty()) return {};

@@ -332,17 +332,6 @@ SharpLamp lamp_of(const Scene& scene, std::uint32_t index) {
   return lamp;
 }
 
-// By page and texel: the chart of its first triangle.
-std::vector<std::vector<std::uint32_t>> charts_at(const LightmapScene& scene) {
-  std::vector<std::vector<std::uint32_t>> at;
-  for (const TexelMapPage& page : scene.map) {
-    at.emplace_back(std::size_t{page.width} * page.height, ~0u);
-    for (std::size_t i = 0; i < page.texel.size(); ++i)
-      at.back()[page.texel[i]] = scene.atlas.chart[page.fragments[page.first[i]].triangle];
-  }
-  return at;
-}
-
 std::vector<TileOfChart> tiles_of(const SharpCharts& sharp) {
   std::vector<TileOfChart> tiles;
   for (std::uint32_t c = 0; c < sharp.charts.size(); ++c)
@@ -357,7 +346,7 @@ std::vector<TileOfChart> tiles_of(const SharpCharts& sharp) {
 Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp, const Stage& stage) {
   const Scene& of = scene.transport.accel.scene();
   const ShadowCasters casters(of, sharp.lights);
-  const auto charts = charts_at(scene);
+  const auto charts = charts_of_texels(scene.atlas, scene.map);
   const std::vector<TileOfChart> tiles = tiles_of(sharp);
   std::vector<TileRecords> listed(tiles.size());
   ORIEL_TRY_VOID(parallel_for(stage, "sharp light", tiles.size(), [&](std::size_t i) {

@@ -125,4 +125,14 @@ SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas) {
   return out;
 }
 
+std::vector<std::vector<std::uint32_t>> charts_of_texels(const Atlas& atlas, std::span<const TexelMapPage> map) {
+  std::vector<std::vector<std::uint32_t>> charts;
+  for (const TexelMapPage& page : map) {
+    charts.emplace_back(std::size_t{page.width} * page.height, ~0u);
+    for (std::size_t i = 0; i < page.texel.size(); ++i)
+      charts.back()[page.texel[i]] = atlas.chart[page.fragments[page.first[i]].triangle];
+  }
+  return charts;
+}
+
 }  // namespace oriel

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bake/atlas/atlas.h"
+#include "bake/atlas/texel_map.h"
 
 namespace oriel {
 
@@ -33,5 +33,8 @@ struct SharpCharts {
 // Lamps with a measured profile stay in texels, wide suns too, whose shadows have no edges that texels lose, and the
 // suns of a day. A chart has its brightest few: each costs the time of a frame.
 SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas);
+
+// By page and texel: the chart of the texel's first triangle, ~0u: none.
+std::vector<std::vector<std::uint32_t>> charts_of_texels(const Atlas& atlas, std::span<const TexelMapPage> map);
 
 }  // namespace oriel
