@@ -13,7 +13,7 @@
 #include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/held_out_error.h"
 #include "bake/radiosity/seams.h"
-#include "bake/radiosity/shadow_lists.h"
+#include "bake/radiosity/sharp_light.h"
 #include "bake/radiosity/stitch.h"
 #include "bake/radiosity/texels/fit_texels.h"
 #include "bake/radiosity/texels/frame_error.h"
@@ -32,7 +32,6 @@ constexpr float kAssumed =
     0.5f;  // relative error of light that is that of near texels: rather too much, nothing measures it
 constexpr double kMeets = 0.05;  // relative difference of two sides of a seam, half
 
-constexpr double kSharpTime = 0.1;         // of what is left: lists of what stands between texels and lamps
 constexpr double kTolerated = 1.1;         // factor of the error requested, for the held-out error
 constexpr double kUnexplained = 0.3;       // of the squared error requested: a larger rest is due to cache look-ups,
 constexpr double kLongerPathsLeave = 0.5;  // of which longer paths leave this fraction
@@ -87,20 +86,6 @@ std::vector<std::vector<bool>> cells_at(const Seams& seams, std::span<const Ligh
     }
   }
   return at;
-}
-
-// Where one side's light is partly computed by pixel and the other's is not, texels must differ.
-void leave_out_sharp_ends(const RadiosityTask& task, Seams& seams) {
-  if (task.sharp == nullptr) return;
-  const auto charts = charts_of_texels(task.atlas, task.map);
-  const auto lamps_at = [&](const SeamPoint& point, std::size_t side) {
-    const std::size_t texel =
-        std::size_t(point.place[side].y) * task.map[point.page[side]].width + std::size_t(point.place[side].x);
-    const std::uint32_t chart = charts[point.page[side]][texel];
-    const bool flat = chart != ~0u && task.sharp->charts[chart].flat;
-    return flat ? task.sharp->charts[chart].sharp : std::vector<bool>();
-  };
-  std::erase_if(seams.points, [&](const SeamPoint& point) { return lamps_at(point, 0) != lamps_at(point, 1); });
 }
 
 Status stitch_lightmap(const RadiosityTask& task, Radiosity& light) {
@@ -251,32 +236,6 @@ Status add_detail_in_time(const RadiosityTask& task, const LightEstimator& estim
   if (added || task.context.stop || added.error().code != ErrorCode::kStopped) return added;
   light.report.detail = {.left_out = true};
   return {};
-}
-
-// Which light is computed by pixel, and what stands in its way. Nothing where there is no time for it.
-Result<bool> find_sharp_light(const RadiosityTask& task, ShadowLists& shadows) {
-  const double most = task.options.left ? (1 - kSharpTime) * task.options.left() : 0;
-  const auto late = [&] { return task.options.left() < most; };
-  ORIEL_TRY(const bool all,
-            done_in_time(task.context, task.options.left ? late : std::function<bool()>(), [&]() -> Status {
-              ORIEL_TRY(shadows, list_shadows(task, *task.sharp, task.quick));
-              return {};
-            }));
-  if (!all)
-    task.context.warning({"shadows of points, spots and suns are as coarse as texels: --time left none for finer ones",
-                          WarningKind::kTimeOver});
-  return all;
-}
-
-// From here on pages have all light.
-void add_sharp_light(const ShadowLists& shadows, Radiosity& light) {
-  for (std::size_t p = 0; p < light.sharp.size(); ++p) {
-    if (shadows.at[p].empty()) continue;
-    LightmapPage& page = light.pages[p];
-    page.sharp = std::move(light.sharp[p].irradiance), page.sharp_at = shadows.at[p];
-    for (std::size_t i = 0; i < page.sharp.size(); ++i) page.irradiance[i] += page.sharp[i];
-  }
-  light.sharp.clear();
 }
 
 Result<HeldOutError> measure_error(const RadiosityTask& task, HeldOutTarget target,

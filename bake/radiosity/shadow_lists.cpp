@@ -56,18 +56,26 @@ struct TileOfChart {
 // The records of a tile's texels, by y * kTile + x; several may be one.
 using TileRecords = std::vector<std::shared_ptr<const Record>>;
 
+// What all tiles ask.
+struct ListedScene {
+  const LightmapScene& scene;
+  const SharpCharts& sharp;
+  const ShadowCasters& casters;
+  std::vector<std::vector<std::uint32_t>> charts;  // charts_of_texels()
+};
+
 class TileLister {
  public:
-  TileLister(const LightmapScene& scene, const SharpCharts& sharp, const ShadowCasters& casters,
-             std::uint32_t chart_number, const std::vector<std::uint32_t>& chart_at, std::uint64_t& rays)
-      : scene_(scene),
-        sharp_(sharp),
-        casters_(casters),
-        chart_number_(chart_number),
-        chart_(sharp.charts[chart_number]),
-        chart_at_(chart_at),
-        level_(kLevel * double{scene.transport.accel.scene().radius()}),
-        rays_(rays) {}
+  TileLister(const ListedScene& in, std::uint32_t chart)
+      : scene_(in.scene),
+        sharp_(in.sharp),
+        casters_(in.casters),
+        chart_number_(chart),
+        chart_(in.sharp.charts[chart]),
+        chart_at_(in.charts[chart_.page]),
+        level_(kLevel * double{in.scene.transport.accel.scene().radius()}) {}
+
+  std::uint64_t rays() const { return rays_; }
 
   TileRecords list(const UVec2& lower) {
     TileRecords records(std::size_t{kTile} * kTile);
@@ -268,10 +276,10 @@ class TileLister {
   const SharpCharts& sharp_;
   const ShadowCasters& casters_;
   std::uint32_t chart_number_;
-  const FlatChart& chart_;
+  const ChartGrid& chart_;
   const std::vector<std::uint32_t>& chart_at_;  // of the page, by texel
   double level_;
-  std::uint64_t& rays_;
+  std::uint64_t rays_ = 0;
 };
 
 // Numbers triangles as they come, and keeps records that are equal once.
@@ -346,14 +354,13 @@ std::vector<TileOfChart> tiles_of(const SharpCharts& sharp) {
 Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp, const Stage& stage) {
   const Scene& of = scene.transport.accel.scene();
   const ShadowCasters casters(of, sharp.lights);
-  const auto charts = charts_of_texels(scene.atlas, scene.map);
+  const ListedScene in{scene, sharp, casters, charts_of_texels(scene.atlas, scene.map)};
   const std::vector<TileOfChart> tiles = tiles_of(sharp);
   std::vector<TileRecords> listed(tiles.size());
   ORIEL_TRY_VOID(parallel_for(stage, "sharp light", tiles.size(), [&](std::size_t i) {
-    std::uint64_t rays = 0;
-    const std::uint32_t page = sharp.charts[tiles[i].chart].page;
-    listed[i] = TileLister(scene, sharp, casters, tiles[i].chart, charts[page], rays).list(tiles[i].lower);
-    stage.count(rays);
+    TileLister lister(in, tiles[i].chart);
+    listed[i] = lister.list(tiles[i].lower);
+    stage.count(lister.rays());
   }));
   ShadowLists out;
   out.at.resize(scene.map.size());
@@ -366,10 +373,10 @@ Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& 
       const UVec2 at = tiles[i].lower + UVec2(k % kTile, k / kTile);
       if (!listed[i][k] || at.x >= width || at.y >= scene.map[page].height) continue;
       const std::size_t texel = std::size_t{at.y} * width + at.x;
-      if (charts[page][texel] != tiles[i].chart) continue;
+      if (in.charts[page][texel] != tiles[i].chart) continue;
       const auto [place, anew] = places.try_emplace(listed[i][k].get(), 0);
       if (anew) place->second = writer.place_of(*listed[i][k]);
-      if (out.at[page].empty()) out.at[page].resize(charts[page].size());
+      if (out.at[page].empty()) out.at[page].resize(in.charts[page].size());
       out.at[page][texel] = place->second;
     }
     listed[i].clear();

@@ -161,6 +161,7 @@ BakeOptions command_line_defaults() {
   o.radiosity.error = 0.02;
   o.radiosity.fit_texels = true;
   o.radiosity.detail = kMostDetail;
+  o.radiosity.sharp = true;
   return o;
 }
 

@@ -207,7 +207,6 @@ class Bake {
       radiosity.left = [this] { return budget_.left() - later_s_; };
       radiosity.left_of_all = [this] { return budget_.left() - writing_s(); };
     }
-    radiosity.sharp = true;
     radiosity.directional = choose_directional(scene(), options_.directional, result_.omissions);
     radiosity.eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
     radiosity.held_out = held_out_eyes(prepared_.region, kLightmapEyes, context_.seed);

@@ -41,7 +41,7 @@ class CachedEstimator : public LightEstimator {
         texels_(std::move(texels)),
         order_(coherent_order(texels_)),
         sample_points_(task, texels_, task.context.seed),
-        direct_light_(task.transport, texels_, sample_points_, task.context.seed, task.sharp),
+        direct_light_(task.transport, texels_, sample_points_, task.context.seed, {task.sharp}),
         query_(task.transport, texels_, direct_light_.closed_form(), task.context.seed),
         direct_(texels_.count(), options_.directional, query_.groups()),
         gathered_(texels_.count(), options_.directional, query_.groups()),

@@ -25,14 +25,19 @@ constexpr std::uint32_t kNone = ~0u;
 // Texel data of a page, by place.
 class PageCells {
  public:
-  PageCells(const Atlas& atlas, const TexelMapPage& map, const LightmapPage& page, const LightmapPage* sharp,
-            const std::vector<float>& visible, const CellTexels& texels)
-      : map_(map), page_(page), sharp_(sharp), visible_(visible), number_(page.state.size(), kNone), texels_(texels) {
+  PageCells(const Atlas& atlas, const TexelMapPage& map, const Radiosity& light, std::uint32_t p,
+            const CellTexels& texels)
+      : map_(map),
+        page_(light.pages[p]),
+        sharp_(light.sharp.empty() ? nullptr : &light.sharp[p]),
+        visible_(light.visible[p]),
+        number_(page_.state.size(), kNone),
+        texels_(texels) {
     for (std::uint32_t i = 0; i < map.texel.size(); ++i) {
       number_[map.texel[i]] = i;
       chart_.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);
     }
-    const auto error = [&](std::uint32_t i) { return luminance(page.standard_error[map.texel[i]]); };
+    const auto error = [&](std::uint32_t i) { return luminance(page_.standard_error[map.texel[i]]); };
     const auto reflected = [&](std::uint32_t i) { return luminance(texels.reflected[i]); };
     const auto its_error = [&](std::uint32_t i) { return std::sqrt(luminance(texels.reflected_variance[i])); };
     for (std::uint32_t i = 0; i < map.texel.size(); ++i) {
@@ -219,8 +224,7 @@ std::vector<CellCandidate> find_cells(const Atlas& atlas, std::span<const TexelM
   std::size_t first = 0;
   for (std::uint32_t p = 0; p < map.size(); ++p) {
     const std::size_t count = map[p].texel.size();
-    PageCells(atlas, map[p], light.pages[p], light.sharp.empty() ? nullptr : &light.sharp[p], light.visible[p],
-              texels.of(first, count))
+    PageCells(atlas, map[p], light, p, texels.of(first, count))
         .add(p, goal, usual, light.at_seam.empty() ? std::vector<bool>() : light.at_seam[p], found);
     first += count;
   }

@@ -29,7 +29,7 @@ void DirectGroup::run(DirectSums& sums) {
   sample_polygon_lights();
   for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
     sample_punctual_light(l);
-    if (d_.sharp_) finish_sharp(l);
+    if (d_.sharp_.charts) finish_sharp(l);
     finish_light(Vec3(1), scene().lights[l].light_group, hours_of(scene().lights[l]), per_half_);
   }
   const VirtualLights& mirrored = d_.t_.lights.mirrored();
@@ -172,7 +172,7 @@ void DirectGroup::add_polygon_sample(const PolygonView& view, const Receiver& re
 void DirectGroup::sample_punctual_light(std::uint32_t l) {
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
-    if (d_.part_ == SharpPart::kLeftOut && is_sharp(l, point.texel)) continue;
+    if (d_.sharp_.left_out && is_sharp(l, point.texel)) continue;
     Sampler sampler(d_.seed_ + seeds::kSharpLight + l, stream_of(list_[point.texel], point.half), point.k);
     const LightSample s = d_.t_.lights.sample_light(l, point.sample_point.origin, sampler.next2());
     const Vec3 value = s.estimate * incidence(point.sample_point.receiver(), s.direction, true);

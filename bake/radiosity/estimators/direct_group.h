@@ -78,7 +78,7 @@ class DirectGroup {
   // The same of a light that is computed by pixel at some texels.
   void finish_sharp(std::uint32_t l);
   bool is_sharp(std::uint32_t l, std::uint32_t texel_of_list) const {
-    return d_.sharp_ && d_.sharp_->apart(l, d_.texels_.chart[list_[texel_of_list]]);
+    return d_.sharp_.has(l, d_.texels_.chart[list_[texel_of_list]]);
   }
   // The factor on noise variance of a sun of a day. Each hour is shown without the others, so its noise is relative to
   // its own light: the number of hours, if all were alike.

@@ -13,8 +13,8 @@ constexpr std::size_t kTexelsATask = 64;   // texels whose shadow rays to one li
 }  // namespace
 
 DirectLight::DirectLight(const Transport& transport, const Texels& texels, const ExtraSamplePoints& sample_points,
-                         std::uint64_t seed, const SharpCharts* sharp, SharpPart part)
-    : t_(transport), texels_(texels), sample_points_(sample_points), seed_(seed), sharp_(sharp), part_(part) {
+                         std::uint64_t seed, const SharpPart& sharp)
+    : t_(transport), texels_(texels), sample_points_(sample_points), seed_(seed), sharp_(sharp) {
   const Scene& scene = transport.accel.scene();
   polygons_ = find_polygon_lights(scene);
   closed_form_ = all_emission_is_plain(scene) && polygons_.size() <= kMaxPolygons;
@@ -35,8 +35,8 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
   loop.inputs = [&](std::size_t g, Archive& key) {
     std::vector<char> apart;
     for (const std::uint32_t t : part(g))
-      for (std::uint32_t l = 0; sharp_ && l < scene_lights; ++l) apart.push_back(sharp_->apart(l, texels_.chart[t]));
-    key(part(g), per_half, !sums.moments.empty(), texels_.eyes, apart, part_);
+      for (std::uint32_t l = 0; l < scene_lights; ++l) apart.push_back(sharp_.has(l, texels_.chart[t]));
+    key(part(g), per_half, !sums.moments.empty(), texels_.eyes, apart, sharp_.left_out);
   };
   loop.compute = [&](std::size_t g) {
     DirectGroup group(*this, part(g), per_half, !sums.moments.empty());

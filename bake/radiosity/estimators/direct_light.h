@@ -56,14 +56,18 @@ struct DirectSums {
 void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
                     std::vector<std::uint32_t>& list);
 
-// What becomes of light that is computed by pixel: DirectSums::sharp has it apart, or it is not estimated.
-enum class SharpPart : std::uint8_t { kApart, kLeftOut };
+// Which light is computed by pixel, and what becomes of it: DirectSums::sharp has it apart, or it is not estimated.
+struct SharpPart {
+  const SharpCharts* charts = nullptr;  // null: there is none
+  bool left_out = false;
+
+  bool has(std::uint32_t light, std::uint32_t chart) const { return charts && charts->apart(light, chart); }
+};
 
 class DirectLight {
  public:
-  // sharp: null: no light is computed by pixel.
   DirectLight(const Transport& transport, const Texels& texels, const ExtraSamplePoints& sample_points,
-              std::uint64_t seed, const SharpCharts* sharp = nullptr, SharpPart part = SharpPart::kApart);
+              std::uint64_t seed, const SharpPart& sharp = {});
 
   // True if every emitting surface has a closed form. False: surfaces are left to light sampling (LightSet), because of
   // textured emitters, or of too many polygons to visit one by one.
@@ -84,8 +88,7 @@ class DirectLight {
   const Texels& texels_;
   const ExtraSamplePoints& sample_points_;
   std::uint64_t seed_;
-  const SharpCharts* sharp_;
-  SharpPart part_;
+  SharpPart sharp_;
   std::vector<PolygonLight> polygons_;
   bool many_punctual_ = false;  // light sampling chooses among them
   bool closed_form_ = true;

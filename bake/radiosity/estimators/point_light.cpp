@@ -171,9 +171,8 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& tex
   const std::vector<std::uint32_t> order = coherent_order(texels);
   ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, task.paths));
   DirectSums direct(n, false, texel_light.query.groups());
-  ORIEL_TRY_VOID(light_directly(task,
-                                {task.transport, texels, sample_points, context.seed, task.sharp, SharpPart::kLeftOut},
-                                order, graph, direct));
+  ORIEL_TRY_VOID(light_directly(task, {task.transport, texels, sample_points, context.seed, {task.sharp, true}}, order,
+                                graph, direct));
   HalfSums gathered(n, false, texel_light.query.groups());
   Estimate indirect;
   const std::vector<char> which = which_gather(points, texels, gathers);

@@ -30,8 +30,8 @@ std::array<DVec2, 3> texel_corners(const Atlas& atlas, std::uint32_t triangle) {
 }
 
 // The grid that a triangle spans; not flat where it has no area on the page.
-FlatChart grid_of(const Scene& scene, const Atlas& atlas, std::uint32_t triangle) {
-  FlatChart chart;
+ChartGrid grid_of(const Scene& scene, const Atlas& atlas, std::uint32_t triangle) {
+  ChartGrid chart;
   chart.page = static_cast<std::uint32_t>(atlas.page[triangle]);
   const auto [a, b, c] = texel_corners(atlas, triangle);
   const UVec3& v = scene.triangles[triangle];
@@ -53,7 +53,7 @@ double texel_area2(const Atlas& atlas, std::uint32_t triangle) {
   return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
 }
 
-void add_to_chart(const Scene& scene, const Atlas& atlas, std::uint32_t triangle, FlatChart& chart) {
+void add_to_chart(const Scene& scene, const Atlas& atlas, std::uint32_t triangle, ChartGrid& chart) {
   const double off = kOffGrid * std::max(glm::length(chart.along_x), glm::length(chart.along_y));
   const auto corners = texel_corners(atlas, triangle);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -69,7 +69,7 @@ void add_to_chart(const Scene& scene, const Atlas& atlas, std::uint32_t triangle
 }
 
 // The most that a lamp may bring to a chart, lux: at its corners and middle, and at the foot of the lamp.
-double most_light(const Scene& scene, const Light& light, const FlatChart& chart) {
+double most_light(const Scene& scene, const Light& light, const ChartGrid& chart) {
   if (light.type == LightType::kDirectional)
     return luminance(light.intensity) * std::max(0.0, -glm::dot(DVec3(light.direction), chart.normal));
   const DVec3 to = DVec3(light.position) - chart.origin;
@@ -88,7 +88,7 @@ double most_light(const Scene& scene, const Light& light, const FlatChart& chart
   return most;
 }
 
-void choose_lamps(const Scene& scene, std::span<const std::uint32_t> lights, FlatChart& chart) {
+void choose_lamps(const Scene& scene, std::span<const std::uint32_t> lights, ChartGrid& chart) {
   std::vector<std::pair<double, std::uint32_t>> by_light;
   for (const std::uint32_t l : lights)
     if (const double most = most_light(scene, scene.lights[l], chart); most > 0) by_light.emplace_back(-most, l);
@@ -120,7 +120,7 @@ SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas) {
   for (std::uint32_t t = 0; t < atlas.chart.size(); ++t)
     if (atlas.chart[t] != ~0u && atlas.page[t] >= 0 && out.charts[atlas.chart[t]].flat)
       add_to_chart(scene, atlas, t, out.charts[atlas.chart[t]]);
-  for (FlatChart& chart : out.charts)
+  for (ChartGrid& chart : out.charts)
     if (chart.flat) choose_lamps(scene, out.lights, chart);
   return out;
 }

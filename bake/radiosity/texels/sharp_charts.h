@@ -9,7 +9,7 @@
 namespace oriel {
 
 // A chart in one plane whose texels are parallelograms: (x, y) in texels lies at origin + x along_x + y along_y.
-struct FlatChart {
+struct ChartGrid {
   bool flat = false;  // else nothing is known
   std::uint32_t page = 0;
   DVec3 origin{0}, along_x{0}, along_y{0};
@@ -21,7 +21,7 @@ struct FlatChart {
 };
 
 struct SharpCharts {
-  std::vector<FlatChart> charts;  // by Atlas::chart
+  std::vector<ChartGrid> charts;  // by Atlas::chart
   std::vector<std::uint32_t>
       lights;  // Scene::lights, in the order of SharpLight::lamps; none: all light is the texels'
 
