@@ -45,12 +45,12 @@ template <class Points>
 bool ShadowBeam::beyond_in_height(const Points& points, bool in_plane) const {
   const double least = in_plane ? -level_ : level_;
   return std::ranges::all_of(points, [&](const DVec3& p) { return height(p) <= least; }) ||
-         std::ranges::all_of(points, [&](const DVec3& p) { return height(p) >= top_; });
+         std::ranges::all_of(points, [&](const DVec3& p) { return height(p) >= top_ - level_; });
 }
 
 bool ShadowBeam::is_beyond_edge(const DVec3& a, const DVec3& b, const DVec3& inside) const {
   const Side side = side_through(a, b, inside);
-  const double margin = level_ + std::max(spread(a), spread(b));
+  const double margin = level_ + std::max({spread(a), spread(b), spread(inside)});
   return std::ranges::all_of(corners_, [&](const DVec3& corner) { return side.beyond(corner) > margin; });
 }
 

@@ -38,12 +38,17 @@ ShadowCasters::ShadowCasters(const Scene& scene, std::span<const std::uint32_t> 
     triangles_.push_back({DVec3(scene.positions[v.x]), DVec3(scene.positions[v.y]), DVec3(scene.positions[v.z])});
     const SceneMaterial& material = scene.material_of(t);
     filters_.push_back(may_transmit(material));
+    patterned_.push_back(filters_.back() && (!scene.colors.empty() ||
+                                             std::ranges::any_of(texture_slots(material), [](const TextureSlot* slot) {
+                                               return slot->image >= 0;
+                                             })));
     const bool doubled = !scene.twin.empty() && scene.twin[t] < t;
     if (!material.unlit && !doubled) order_.push_back(t);
   }
   join_edges(scene);
   find_bodies();
-  for (const std::uint32_t light : lights) spared_.push_back(spared_by(scene.lights[light]));
+  for (const std::uint32_t light : lights)
+    spared_.push_back(spared_by(scene.lights[light], kLevel * double{scene.radius()}));
   if (!order_.empty()) add_node(0, order_.size());
 }
 
@@ -99,7 +104,7 @@ void ShadowCasters::find_bodies() {
   }
 }
 
-std::vector<bool> ShadowCasters::spared_by(const Light& light) const {
+std::vector<bool> ShadowCasters::spared_by(const Light& light, double level) const {
   const bool sun = light.type == LightType::kDirectional;
   const DVec3 place(sun ? -light.direction : light.position);
   // How often each body winds about a lamp, times 2π, by solid angles (Van Oosterom and Strackee 1983).
@@ -113,10 +118,13 @@ std::vector<bool> ShadowCasters::spared_by(const Light& light) const {
   }
   std::vector<bool> spared(triangles_.size());
   for (const std::uint32_t t : order_) {
-    if (body_[t] == ~0u || std::abs(about[body_[t]]) > 1) continue;
     const auto& [a, b, c] = triangles_[t];
-    const double faces = glm::dot(glm::cross(b - a, c - a), sun ? place : place - a);
-    spared[t] = faces * volume_[body_[t]] < 0;
+    const DVec3 normal = glm::cross(b - a, c - a);
+    const double faces = glm::dot(normal, sun ? place : place - a);
+    // A lamp on a wall is in its plane, by rounding before or behind it: neither casts a shadow.
+    spared[t] = !sun && std::abs(faces) <= level * glm::length(normal);
+    if (body_[t] == ~0u || std::abs(about[body_[t]]) > 1) continue;
+    spared[t] = spared[t] || faces * volume_[body_[t]] < 0;
   }
   return spared;
 }

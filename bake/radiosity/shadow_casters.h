@@ -7,6 +7,8 @@
 
 namespace oriel {
 
+inline constexpr double kLevel = 0x1p-20;  // of a scene's radius: what lies in one plane, by rounding
+
 class ShadowCasters {
  public:
   // lights: whose shadows are asked for, into Scene::lights.
@@ -15,6 +17,8 @@ class ShadowCasters {
   const BeamTriangle& triangle(std::uint32_t t) const { return triangles_[t]; }
   // Whether it lets light through somewhere.
   bool is_filter(std::uint32_t t) const { return filters_[t]; }
+  // A filter that lets more light through in one place than in another.
+  bool is_patterned(std::uint32_t t) const { return patterned_[t]; }
   // Those that may stand in the way of a beam to lights[lamp], ascending. Of a closed body that does not hold the lamp
   // the side that faces it is enough: no ray passes the other alone.
   std::vector<std::uint32_t> in(const ShadowBeam& beam, std::size_t lamp) const;
@@ -29,11 +33,11 @@ class ShadowCasters {
   };
   void join_edges(const Scene& scene);
   void find_bodies();
-  std::vector<bool> spared_by(const Light& light) const;
+  std::vector<bool> spared_by(const Light& light, double level) const;
   void add_node(std::size_t first, std::size_t count);
 
   std::vector<BeamTriangle> triangles_;
-  std::vector<bool> filters_;
+  std::vector<bool> filters_, patterned_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
   // By triangle and edge: the triangle beyond it, ~0u: none or several; and whether both wind the same way.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 
 #include "bake/jobs/parallel.h"
@@ -15,12 +16,14 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTile = 16;               // texels a side, that are looked at together first
-constexpr std::size_t kListed = 16;               // triangles for one lamp: with more, quarters have fewer each
-constexpr std::size_t kListedAtLast = 64;         // likewise where there are no more quarters
+constexpr std::uint32_t kTile = 16;         // texels a side, that are looked at together first
+constexpr std::size_t kListed = 16;         // triangles for one lamp: with more, quarters have fewer each
+constexpr std::size_t kListedAtLast = 64;   // likewise where there are no more quarters
+constexpr std::size_t kTilesAtOnce = 1024;  // in memory
+// Words of all lists: with more they are made again with fewer quarters. As much as sixteen texels of lightmap each.
+constexpr std::size_t kFewWords = 1 << 18, kWordsATexel = 64;
 constexpr int kFilterSplits = 3;                  // where cut-outs or the rims of panes need rays: eighths of a texel
 constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
-constexpr double kLevel = 0x1p-20;                // of the scene's radius: what lies in one plane, by rounding
 
 // A square of texels or of a part of one, in texels of the chart's page.
 struct Square {
@@ -66,14 +69,15 @@ struct ListedScene {
 
 class TileLister {
  public:
-  TileLister(const ListedScene& in, std::uint32_t chart)
+  TileLister(const ListedScene& in, std::uint32_t chart, int most_splits)
       : scene_(in.scene),
         sharp_(in.sharp),
         casters_(in.casters),
         chart_number_(chart),
         chart_(in.sharp.charts[chart]),
         chart_at_(in.charts[chart_.page]),
-        level_(kLevel * double{in.scene.transport.accel.scene().radius()}) {}
+        level_(kLevel * double{in.scene.transport.accel.scene().radius()} + chart_.off),
+        most_splits_(most_splits) {}
 
   std::uint64_t rays() const { return rays_; }
 
@@ -86,7 +90,7 @@ class TileLister {
       const ShadowBeam beam = beam_to(lamp, tile);
       if (!beam.faces_lamp() || is_beyond_cone(lamp, tile)) continue;
       lamps.push_back({lamp, casters_.in(beam, lamp)});
-      std::erase_if(lamps.back().casters, [&](std::uint32_t t) { return scene_.atlas.chart[t] == chart_number_; });
+      std::erase_if(lamps.back().casters, [&](std::uint32_t t) { return is_own(t); });
     }
     fill(tile, lower, std::move(lamps), {}, records);
     return records;
@@ -102,6 +106,13 @@ class TileLister {
 
   const oriel::Light& light_of(std::uint32_t lamp) const {
     return scene_.transport.accel.scene().lights[sharp_.lights[lamp]];
+  }
+
+  // Of the chart itself, or its other side.
+  bool is_own(std::uint32_t t) const {
+    const std::vector<std::uint32_t>& twin = scene_.transport.accel.scene().twin;
+    const auto chart_of = [&](std::uint32_t triangle) { return triangle == ~0u ? ~0u : scene_.atlas.chart[triangle]; };
+    return chart_of(t) == chart_number_ || (!twin.empty() && chart_of(twin[t]) == chart_number_);
   }
 
   ShadowBeam beam_to(std::uint32_t lamp, const Square& s) const {
@@ -193,7 +204,7 @@ class TileLister {
       const BeamTriangle& triangle = casters_.triangle(t);
       if (!casters_.is_filter(t) && beam.is_blocked_by(triangle)) return {};
       std::uint8_t bits = 0;
-      bool near = beam.is_cut_by(triangle);
+      bool near = casters_.is_patterned(t) || beam.is_cut_by(triangle);
       for (std::size_t k = 0; k < 3; ++k) {
         if (!casters_.ends_shadow(t, k, beam)) continue;
         bits |= static_cast<std::uint8_t>(1u << k);
@@ -209,19 +220,20 @@ class TileLister {
       if (few.even) return arrived(lamp.lamp, few.mean);
       edges = edges_of_filters = true;
     }
-    const bool last = splits > kMostSharpSplits || (edges_of_filters && splits > kFilterSplits);
+    const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits);
     if (splits > 0 && !edges_of_filters && shine.casters.size() <= (last ? kListedAtLast : kListed)) {
-      if (filters) tint_by_filters(square, shine);
-      if (filters && shine.tint == Vec3(0)) return {};
-      return {Light::kSettled, std::move(shine), {}};
+      if (filters) shine.tint = rays_to(square, shine.lamp, kRays).most;  // of panes that reach beyond the square
+      if (!filters) return {Light::kSettled, std::move(shine), {}};
+      if (shine.tint != Vec3(0)) {
+        list_opaque(shine);
+        return {Light::kSettled, std::move(shine), {}};
+      }
     }
     if (last) return arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean);
     return {Light::kOpen, {}, std::move(shine.casters)};
   }
 
-  // Panes that reach beyond the square tint all of its light alike; what else is in the way is listed.
-  void tint_by_filters(const Square& square, Shine& shine) {
-    shine.tint = rays_to(square, shine.lamp, kRays).most;
+  void list_opaque(Shine& shine) const {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < shine.casters.size(); ++i)
       if (!casters_.is_filter(shine.casters[i]))
@@ -248,7 +260,8 @@ class TileLister {
       const Vec2 of_disk((static_cast<float>(k / side) + 0.5f) / static_cast<float>(side),
                          (static_cast<float>((k * 5 + 2) % (side * side) / side) + 0.5f) / static_cast<float>(side));
       Ray ray;
-      ray.origin = Vec3(chart_.at(square.lower + square.side * within) + 8 * level_ * chart_.normal);
+      const Vec3 at(chart_.at(square.lower + square.side * within) + 8 * level_ * chart_.normal);
+      ray.origin = offset_origin(at, Vec3(chart_.normal), max_component(glm::abs(at)));
       ray.past_frosted = false;
       if (light.type == LightType::kDirectional) {
         ray.direction = light.angular_radius_rad > 0 ? sample_cone(-light.direction, light.angular_radius_rad, of_disk)
@@ -279,6 +292,7 @@ class TileLister {
   const ChartGrid& chart_;
   const std::vector<std::uint32_t>& chart_at_;  // of the page, by texel
   double level_;
+  int most_splits_;
   std::uint64_t rays_ = 0;
 };
 
@@ -349,39 +363,59 @@ std::vector<TileOfChart> tiles_of(const SharpCharts& sharp) {
   return tiles;
 }
 
+// The lists of some tiles, and what they come to.
+void write_tile(const ListedScene& in, const TileOfChart& tile, const TileRecords& records, SharpWriter& writer,
+                ShadowLists& out) {
+  const std::uint32_t page = in.sharp.charts[tile.chart].page;
+  const UVec2 size(in.scene.map[page].width, in.scene.map[page].height);
+  std::map<const Record*, std::uint32_t> places;
+  for (std::uint32_t k = 0; k < records.size(); ++k) {
+    const UVec2 at = tile.lower + UVec2(k % kTile, k / kTile);
+    if (!records[k] || at.x >= size.x || at.y >= size.y) continue;
+    const std::size_t texel = std::size_t{at.y} * size.x + at.x;
+    if (in.charts[page][texel] != tile.chart) continue;
+    const auto [place, anew] = places.try_emplace(records[k].get(), 0);
+    if (anew) place->second = writer.place_of(*records[k]);
+    if (out.at[page].empty()) out.at[page].resize(in.charts[page].size());
+    out.at[page][texel] = place->second;
+  }
+}
+
+// Nothing where there are more than so many words.
+Result<std::optional<ShadowLists>> list_tiles(const ListedScene& in, int splits, std::size_t most, const Stage& stage) {
+  const Scene& scene = in.scene.transport.accel.scene();
+  const std::vector<TileOfChart> tiles = tiles_of(in.sharp);
+  ShadowLists out;
+  out.at.resize(in.scene.map.size());
+  for (const std::uint32_t light : in.sharp.lights) out.light.lamps.push_back(lamp_of(scene, light));
+  SharpWriter writer(in.casters, out.light);
+  for (std::size_t first = 0; first < tiles.size(); first += kTilesAtOnce) {
+    std::vector<TileRecords> listed(std::min(kTilesAtOnce, tiles.size() - first));
+    stage.context.foretell("sharp light", double(first) / double(tiles.size()));
+    ORIEL_TRY_VOID(parallel_for(stage, "", listed.size(), [&](std::size_t i) {
+      TileLister lister(in, tiles[first + i].chart, splits);
+      listed[i] = lister.list(tiles[first + i].lower);
+      stage.count(lister.rays());
+    }));
+    for (std::size_t i = 0; i < listed.size(); ++i) write_tile(in, tiles[first + i], listed[i], writer, out);
+    if (out.light.words.size() > most) return std::optional<ShadowLists>();
+  }
+  return std::optional(std::move(out));
+}
+
 }  // namespace
 
 Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp, const Stage& stage) {
-  const Scene& of = scene.transport.accel.scene();
-  const ShadowCasters casters(of, sharp.lights);
+  const ShadowCasters casters(scene.transport.accel.scene(), sharp.lights);
   const ListedScene in{scene, sharp, casters, charts_of_texels(scene.atlas, scene.map)};
-  const std::vector<TileOfChart> tiles = tiles_of(sharp);
-  std::vector<TileRecords> listed(tiles.size());
-  ORIEL_TRY_VOID(parallel_for(stage, "sharp light", tiles.size(), [&](std::size_t i) {
-    TileLister lister(in, tiles[i].chart);
-    listed[i] = lister.list(tiles[i].lower);
-    stage.count(lister.rays());
-  }));
-  ShadowLists out;
-  out.at.resize(scene.map.size());
-  for (const std::uint32_t light : sharp.lights) out.light.lamps.push_back(lamp_of(of, light));
-  SharpWriter writer(casters, out.light);
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const std::uint32_t page = sharp.charts[tiles[i].chart].page, width = scene.map[page].width;
-    std::map<const Record*, std::uint32_t> places;
-    for (std::uint32_t k = 0; k < listed[i].size(); ++k) {
-      const UVec2 at = tiles[i].lower + UVec2(k % kTile, k / kTile);
-      if (!listed[i][k] || at.x >= width || at.y >= scene.map[page].height) continue;
-      const std::size_t texel = std::size_t{at.y} * width + at.x;
-      if (in.charts[page][texel] != tiles[i].chart) continue;
-      const auto [place, anew] = places.try_emplace(listed[i][k].get(), 0);
-      if (anew) place->second = writer.place_of(*listed[i][k]);
-      if (out.at[page].empty()) out.at[page].resize(in.charts[page].size());
-      out.at[page][texel] = place->second;
-    }
-    listed[i].clear();
+  std::size_t texels = 0;
+  for (const TexelMapPage& page : scene.map) texels += page.texel.size();
+  const std::size_t most = std::max(kFewWords, kWordsATexel * texels);
+  for (const int splits : {kMostSharpSplits, kFilterSplits, 0}) {
+    ORIEL_TRY(auto lists, list_tiles(in, splits, most, stage));
+    if (lists) return std::move(*lists);
   }
-  return out;
+  return ShadowLists();
 }
 
 }  // namespace oriel

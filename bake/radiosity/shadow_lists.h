@@ -15,7 +15,7 @@ struct ShadowLists {
   std::vector<std::vector<std::uint32_t>> at;  // by page: LightmapPage::sharp_at; empty: nothing on this page
 };
 
-// Error kStopped.
+// Without lamps where what stands in their way is too much to list. Error kStopped.
 Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp, const Stage& stage);
 
 }  // namespace oriel

@@ -20,15 +20,19 @@ Result<bool> find_sharp_light(const RadiosityTask& task, ShadowLists& shadows) {
   if (!all)
     task.context.warning({"shadows of points, spots and suns are as coarse as texels: --time left none for finer ones",
                           WarningKind::kTimeOver});
-  return all;
+  else if (shadows.light.empty())
+    task.context.warning(
+        "shadows of points, spots and suns are as coarse as texels: too many triangles stand in their way");
+  return all && !shadows.light.empty();
 }
 
 void leave_out_sharp_ends(const RadiosityTask& task, Seams& seams) {
   if (task.sharp == nullptr) return;
   const auto charts = charts_of_texels(task.atlas, task.map);
   const auto lamps_at = [&](const SeamPoint& point, std::size_t side) {
-    const std::size_t texel =
-        std::size_t(point.place[side].y) * task.map[point.page[side]].width + std::size_t(point.place[side].x);
+    const TexelMapPage& page = task.map[point.page[side]];
+    const UVec2 at = glm::min(UVec2(glm::max(point.place[side], DVec2(0))), UVec2(page.width - 1, page.height - 1));
+    const std::size_t texel = std::size_t{at.y} * page.width + at.x;
     const std::uint32_t chart = charts[point.page[side]][texel];
     const bool flat = chart != ~0u && task.sharp->charts[chart].flat;
     return flat ? task.sharp->charts[chart].sharp : std::vector<bool>();

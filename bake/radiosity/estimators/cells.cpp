@@ -25,12 +25,12 @@ constexpr std::uint32_t kNone = ~0u;
 // Texel data of a page, by place.
 class PageCells {
  public:
-  PageCells(const Atlas& atlas, const TexelMapPage& map, const Radiosity& light, std::uint32_t p,
+  PageCells(const Atlas& atlas, const TexelMapPage& map, const Radiosity& all, std::uint32_t p,
             const CellTexels& texels)
       : map_(map),
-        page_(light.pages[p]),
-        sharp_(light.sharp.empty() ? nullptr : &light.sharp[p]),
-        visible_(light.visible[p]),
+        page_(all.pages[p]),
+        sharp_(all.sharp.empty() ? nullptr : &all.sharp[p]),
+        visible_(all.visible[p]),
         number_(page_.state.size(), kNone),
         texels_(texels) {
     for (std::uint32_t i = 0; i < map.texel.size(); ++i) {

@@ -47,7 +47,7 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
     for (const std::uint32_t t : part(g)) {
       archive(sums.value[t], sums.difference[t], sums.variance[t], sums.uneven[t], sums.per_half[t], sums.sharp[t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
-      if (!sums.grouped.empty()) archive(sums.grouped.of(t), sums.grouped_difference.of(t));
+      if (!sums.grouped.empty()) archive(sums.grouped.of(t), sums.grouped_difference.of(t), sums.grouped_sharp.of(t));
     }
   };
   return parallel_units(stage, loop);

@@ -67,7 +67,7 @@ void store_light(Context& context, const Hash128& name, PreviousLight previous) 
   context.units->remember(name, std::move(bytes));
 }
 
-Reuse::Reuse(const Texels& texels, PreviousLight before)
+Reuse::Reuse(const Texels& texels, std::span<const std::uint32_t> chart, PreviousLight before)
     : previous_(std::move(before)),
       previous_number_(texels.count(), kNoTexel),
       reused_(texels.count()),
@@ -76,7 +76,7 @@ Reuse::Reuse(const Texels& texels, PreviousLight before)
     if (previous_.page[k] >= texels.pages.size()) continue;
     const std::uint32_t now =
         texels.at(previous_.page[k], static_cast<int>(previous_.x[k]), static_cast<int>(previous_.y[k]));
-    if (now != kNoTexel && texels.chart[now] == previous_.chart[k]) previous_number_[now] = k;
+    if (now != kNoTexel && chart[now] == previous_.chart[k]) previous_number_[now] = k;
   }
 }
 

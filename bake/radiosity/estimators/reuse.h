@@ -9,7 +9,7 @@ namespace oriel {
 
 // The final state of a bake by texel, stored in the cache for the next one.
 struct PreviousLight {
-  std::vector<std::uint32_t> page, x, y, chart;  // identify a texel
+  std::vector<std::uint32_t> page, x, y, chart;  // identify a texel; chart: other numbers where other light is sharp
   std::vector<Vec3> first_pass;                  // direct light by the first few samples, lux
   std::vector<Vec3> unrefined_direct;            // direct light before refinement, lux
   std::vector<Vec3> coarse;                      // all light before the final gather, lux
@@ -36,8 +36,8 @@ void store_light(Context& context, const Hash128& name, PreviousLight previous);
 // below the allowed error, relative to its light (at least 1 % of the mean).
 class Reuse {
  public:
-  // Matches texels: the same place on the same page, and the same chart.
-  Reuse(const Texels& texels, PreviousLight before);
+  // Matches texels: the same place on the same page, and the same chart, as PreviousLight::chart numbers it.
+  Reuse(const Texels& texels, std::span<const std::uint32_t> chart, PreviousLight before);
 
   // The number of a texel in the previous bake; kNoTexel without one.
   std::uint32_t before(std::size_t texel) const { return previous_number_[texel]; }

@@ -16,6 +16,7 @@ constexpr std::size_t kMostOfChart = 16;  // a frame of one chart takes 40 ms mo
 // How far corners may lie off the chart's plane and grid, in texels, and normals off the plane's: a degree, as charts
 // are called flat.
 constexpr double kOffGrid = 0.02, kFlatCosine = 0.9998;
+constexpr double kRounding = 1e-3;  // of places on a page of 16384 texels in floats, texels
 
 bool may_be_sharp(const Light& light) {
   return light.profile < 0 && light.hour < 0 && light.angular_radius_rad <= kWidestSun_rad &&
@@ -45,6 +46,7 @@ ChartGrid grid_of(const Scene& scene, const Atlas& atlas, std::uint32_t triangle
   chart.origin = p - a.x * chart.along_x - a.y * chart.along_y;
   chart.normal = DVec3(geometric_normal(scene, triangle));
   chart.lower = UVec2(~0u);
+  chart.off = kRounding * std::max(glm::length(chart.along_x), glm::length(chart.along_y));
   return chart;
 }
 
@@ -60,6 +62,7 @@ void add_to_chart(const Scene& scene, const Atlas& atlas, std::uint32_t triangle
     const std::uint32_t vertex = scene.triangles[triangle][static_cast<int>(k)];
     const DVec3 away = chart.at(corners[k]) - DVec3(scene.positions[vertex]);
     if (!(glm::dot(away, away) <= off * off)) chart.flat = false;
+    chart.off = std::max(chart.off, glm::length(away));
     if (!(glm::dot(DVec3(scene.normals[vertex]), chart.normal) >= kFlatCosine)) chart.flat = false;
     const AtlasPage& page = atlas.pages[chart.page];
     const DVec2 at = glm::clamp(corners[k], DVec2(0), DVec2(page.width, page.height));

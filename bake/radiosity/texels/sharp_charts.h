@@ -14,6 +14,7 @@ struct ChartGrid {
   std::uint32_t page = 0;
   DVec3 origin{0}, along_x{0}, along_y{0};
   DVec3 normal{0};           // unit, of the fronts
+  double off = 0;            // how far its surface may be from there, m
   UVec2 lower{0}, upper{0};  // texels that it touches: [lower, upper)
   std::vector<bool> sharp;   // by Scene::lights: whether its light here is computed by pixel
 
@@ -25,6 +26,13 @@ struct SharpCharts {
   std::vector<std::uint32_t>
       lights;  // Scene::lights, in the order of SharpLight::lamps; none: all light is the texels'
 
+  // Another number where other lights of a chart are apart.
+  std::uint32_t mark(std::uint32_t chart) const {
+    std::uint32_t mark = 0;
+    for (std::uint32_t l = 0; charts[chart].flat && l < charts[chart].sharp.size(); ++l)
+      mark = 31 * mark + charts[chart].sharp[l];
+    return mark;
+  }
   bool apart(std::uint32_t light, std::uint32_t chart) const {
     return charts[chart].flat && charts[chart].sharp[light];
   }

@@ -58,6 +58,7 @@ RadiosityOptions sharp_options() {
 struct LookedAt {
   int points = 0, lit = 0, dark = 0, wrong = 0;  // wrong: further from the rays than a margin
   double worst = 0;                              // of shares of the lamp's light
+  double shown = 0, by_rays = 0;                 // all of them
 };
 
 // The light of the first lamp at places of flat charts, beside what `rays` rays bring. A place counts as wrong where
@@ -87,7 +88,8 @@ LookedAt look_at(const Baked& b, std::uint32_t rays, double margin) {
     const Vec2 at = uv[0] + share.x * (uv[1] - uv[0]) + share.y * (uv[2] - uv[0]);
     const Vec3 normal = geometric_normal(b.scene, triangle);
     const Vec3 &p0 = b.scene.positions[v.x], pu = b.scene.positions[v.y] - p0, pv = b.scene.positions[v.z] - p0;
-    if (b.scene.surfaces[b.scene.triangle_surface[triangle]].name == "ball") return;
+    const std::string& name = b.scene.surfaces[b.scene.triangle_surface[triangle]].name;
+    if (name == "ball" || name == "lattice") return;
     (void)texel;
     const Vec3 p = p0 + share.x * pu + share.y * pv;
     const LightSample full = lights.sample_light(0, p, Vec2(0.5f));
@@ -101,7 +103,9 @@ LookedAt look_at(const Baked& b, std::uint32_t rays, double margin) {
     double off = off_at(p);
     for (const Vec3& step : {pu, -pu, pv, -pv})
       if (off > margin) off = std::min(off, off_at(p + 2e-4f * glm::normalize(step)));
+    found.by_rays += by_rays(p, normal, number) / all;
     const double shown = luminance(sharp_irradiance(b.radiosity.sharp_light, page, {at, p, normal})) / all;
+    found.shown += shown;
     ++found.points, found.lit += shown > 0.99, found.dark += shown < 0.01;
     found.wrong += off > margin, found.worst = std::max(found.worst, off);
   });
@@ -160,8 +164,8 @@ TEST(SharpLight, TexelsHoldAsMuchAsWithoutIt) {
   EXPECT_LT(2 * a.radiosity.report.detail.points, b.radiosity.report.detail.points);
 }
 
-// Clear glass before a floor tints all of its light; a cut-out is as coarse as an eighth of a texel, but no coarser.
-TEST(SharpLight, PassesPanesAndCutOuts) {
+// Clear glass before a floor tints all of its light.
+TEST(SharpLight, PassesPanes) {
   SceneParts parts;
   parts.quad("floor", parts.diffuse(Vec3(0.5f)), {-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
   SceneMaterial glass;
@@ -174,6 +178,28 @@ TEST(SharpLight, PassesPanesAndCutOuts) {
   const LookedAt found = look_at(b, 1, 0.02);
   EXPECT_GT(found.points, 1000);
   EXPECT_EQ(found.wrong, 0) << "worst " << found.worst;
+}
+
+// A lattice of holes of 5 cm, whose sun is as coarse as an eighth of a texel.
+TEST(SharpLight, OfALatticeIsThatOfItsHoles) {
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0.5f)), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  Image checks{"checks", 40, 40, {}};
+  for (std::uint32_t k = 0; k < 1600; ++k)
+    for (const int value : {255, 255, 255, (k % 40 + k / 40) % 2 ? 255 : 0})
+      checks.texels.push_back(static_cast<std::uint8_t>(value));
+  SceneMaterial lattice;
+  lattice.alpha_mode = AlphaMode::kMask, lattice.base_color_texture = {.image = 0, .nearest = true};
+  lattice.double_sided = true;
+  parts.quad("lattice", parts.add(lattice), {-1, 0.5f, 1}, {2, 0, 0}, {0, 0, -2});
+  parts.scene().images.push_back(std::move(checks));
+  parts.scene().lights = {sun_along({0.01f, -1, 0.02f}, 0)};
+  const Baked b = test::bake(parts.finish(), 0.1f, sharp_options());
+  const LookedAt found = look_at(b, 1, 0.5);
+  EXPECT_GT(found.points, 300);
+  EXPECT_NEAR(found.by_rays / found.points, 0.5, 0.06);
+  EXPECT_NEAR(found.shown / found.by_rays, 1, 0.05);
+  EXPECT_LT(found.wrong, found.points / 4) << "of holes of four eighths of a texel";
 }
 
 TEST(SharpLight, SurvivesLampsInAndOnThings) {

@@ -45,7 +45,7 @@ struct Page {
 
 TEST(Reuse, TilesKeepLightThatChangesByLessThanIsAllowed) {
   const Page page(100);
-  Reuse reuse(page.texels, page.previous);
+  Reuse reuse(page.texels, page.texels.chart, page.previous);
   reuse.compare(page.texels, page.order, page.changed(1.5f), false, 0.02);
   EXPECT_EQ(reuse.report().tiles, kTiles);
   EXPECT_EQ(reuse.report().reused, 2u) << "0 and 1.5 %, not 3 and 4.5 %";
@@ -59,10 +59,10 @@ TEST(Reuse, ALocalChangeCountsByItsRootMeanSquare) {
   const Page page(100);
   std::vector<Vec3> now(page.previous.coarse);
   now[5] = Vec3(50);  // relative to what is there now: 1, of 64 texels: 1/8
-  Reuse reuse(page.texels, page.previous);
+  Reuse reuse(page.texels, page.texels.chart, page.previous);
   reuse.compare(page.texels, page.order, now, false, 0.1249);
   EXPECT_FALSE(reuse.reuses(0));
-  reuse = Reuse(page.texels, page.previous);
+  reuse = Reuse(page.texels, page.texels.chart, page.previous);
   reuse.compare(page.texels, page.order, now, false, 0.1251);
   EXPECT_TRUE(reuse.reuses(0));
 }
@@ -71,7 +71,7 @@ TEST(Reuse, OtherChartsAndTexelsThatWereNotThereAreBaked) {
   Page page(100);
   page.previous.chart[70] = 1;
   page.previous.page[130] = 7;
-  Reuse reuse(page.texels, page.previous);
+  Reuse reuse(page.texels, page.texels.chart, page.previous);
   reuse.compare(page.texels, page.order, page.previous.coarse, false, 1);
   EXPECT_EQ(reuse.report().reused, 2u);
   EXPECT_EQ(reuse.before(70), kNoTexel);
@@ -80,18 +80,18 @@ TEST(Reuse, OtherChartsAndTexelsThatWereNotThereAreBaked) {
 
 TEST(Reuse, ADarkSceneThatStaysDarkIsKeptAndOneThatIsLitIsNot) {
   const Page page(0);
-  Reuse reuse(page.texels, page.previous);
+  Reuse reuse(page.texels, page.texels.chart, page.previous);
   reuse.compare(page.texels, page.order, page.previous.coarse, false, 0.02);
   EXPECT_EQ(reuse.report().reused, kTiles);
   EXPECT_EQ(reuse.report().error, 0);
-  reuse = Reuse(page.texels, page.previous);
+  reuse = Reuse(page.texels, page.texels.chart, page.previous);
   reuse.compare(page.texels, page.order, std::vector<Vec3>(page.order.size(), Vec3(1)), false, 0.02);
   EXPECT_EQ(reuse.report().reused, 0u);
 }
 
 TEST(Reuse, DirectLightIsTheSameWhereItAndItsNeighboursLookTheSame) {
   const Page page(100);
-  const Reuse reuse(page.texels, page.previous);
+  const Reuse reuse(page.texels, page.texels.chart, page.previous);
   TexelGraph graph;
   graph.neighbour.resize(page.order.size());
   graph.count.assign(page.order.size(), 0);
