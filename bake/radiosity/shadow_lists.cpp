@@ -5,23 +5,18 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/shadow_casters.h"
+#include "bake/radiosity/sharp_records.h"
 #include "bake/trace/punctual.h"
-#include "formats/assets/light_field.h"
-#include "formats/core/half.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTile = 16;         // texels a side, that are looked at together first
-constexpr std::size_t kListed = 16;         // triangles for one lamp: with more, quarters have fewer each
-constexpr std::size_t kListedAtLast = 64;   // likewise where there are no more quarters
-constexpr std::size_t kTilesAtOnce = 1024;  // in memory
-// Words of all lists: with more they are made again with fewer quarters. As much as sixteen texels of lightmap each.
-constexpr std::size_t kFewWords = 1 << 18, kWordsATexel = 64;
+constexpr std::uint32_t kTile = 16;               // texels a side, that are looked at together first
+constexpr std::size_t kListed = 16;               // triangles for one lamp: with more, quarters have fewer each
+constexpr std::size_t kTilesAtOnce = 1024;        // in memory
+constexpr std::size_t kMostOfTexel = 256;         // words: with more it is made again with fewer quarters
 constexpr int kFilterSplits = 3;                  // where cut-outs or the rims of panes need rays: eighths of a texel
 constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
 
@@ -30,19 +25,6 @@ struct Square {
   DVec2 lower{0};
   double side = 1;
   Square quarter(std::uint32_t k) const { return {lower + 0.5 * side * DVec2(k & 1u, k >> 1u), 0.5 * side}; }
-};
-
-// What reaches a square, before it is encoded: a leaf's words, without numbers of triangles in SharpLight, or quarters.
-struct Shine {
-  std::uint32_t lamp = 0;
-  Vec3 tint{1};
-  std::vector<std::uint32_t> casters;  // of the scene, with the bits of their edges beside
-  std::vector<std::uint8_t> edges;
-};
-struct Record {
-  std::vector<Shine> shines;
-  std::array<std::unique_ptr<Record>, 4> quarters;
-  bool is_split() const { return quarters[0] != nullptr; }
 };
 
 // A lamp whose shadows in a square are not settled: what may stand in its way.
@@ -57,7 +39,7 @@ struct TileOfChart {
 };
 
 // The records of a tile's texels, by y * kTile + x; several may be one.
-using TileRecords = std::vector<std::shared_ptr<const Record>>;
+using TileRecords = std::vector<std::shared_ptr<const SharpRecord>>;
 
 // What all tiles ask.
 struct ListedScene {
@@ -69,15 +51,14 @@ struct ListedScene {
 
 class TileLister {
  public:
-  TileLister(const ListedScene& in, std::uint32_t chart, int most_splits)
+  TileLister(const ListedScene& in, std::uint32_t chart)
       : scene_(in.scene),
         sharp_(in.sharp),
         casters_(in.casters),
         chart_number_(chart),
         chart_(in.sharp.charts[chart]),
         chart_at_(in.charts[chart_.page]),
-        level_(kLevel * double{in.scene.transport.accel.scene().radius()} + chart_.off),
-        most_splits_(most_splits) {}
+        level_(kLevel * double{in.scene.transport.accel.scene().radius()} + chart_.off) {}
 
   std::uint64_t rays() const { return rays_; }
 
@@ -100,7 +81,7 @@ class TileLister {
   enum class Light { kNone, kSettled, kOpen };
   struct Look {
     Light light = Light::kNone;
-    Shine shine;
+    LampShine shine;
     std::vector<std::uint32_t> casters;  // kOpen
   };
 
@@ -143,21 +124,28 @@ class TileLister {
   }
 
   // Settles what it can in a square of whole texels and goes on in its quarters.
-  void fill(const Square& square, const UVec2& first, std::vector<Unsettled> lamps, std::vector<Shine> settled,
+  void fill(const Square& square, const UVec2& first, std::vector<Unsettled> lamps, std::vector<LampShine> settled,
             TileRecords& records) {
     const auto side = static_cast<std::uint32_t>(square.side);
     const UVec2 lower(square.lower);
     if (!is_covered(lower, side)) return;
     if (side == 1) {
-      auto record = std::make_shared<Record>(part(square, 0, std::move(lamps), std::move(settled)));
-      if (record->is_split() || !record->shines.empty())
-        records[std::size_t{lower.y - first.y} * kTile + lower.x - first.x] = std::move(record);
+      SharpRecord record;
+      for (const int splits : {kMostSharpSplits, kFilterSplits, 2, 1, 0}) {
+        most_splits_ = splits;
+        record = part(square, 0, lamps, settled);
+        if (record.words() <= kMostOfTexel) break;
+      }
+      if (record.is_split() || !record.shines.empty())
+        records[std::size_t{lower.y - first.y} * kTile + lower.x - first.x] =
+            std::make_shared<SharpRecord>(std::move(record));
       return;
     }
     lamps = settle(square, std::move(lamps), settled, 0);
     if (lamps.empty()) {
-      std::ranges::sort(settled, {}, &Shine::lamp);
-      const auto record = settled.empty() ? nullptr : std::make_shared<Record>(Record{std::move(settled), {}});
+      std::ranges::sort(settled, {}, &LampShine::lamp);
+      const auto record =
+          settled.empty() ? nullptr : std::make_shared<SharpRecord>(SharpRecord{std::move(settled), {}});
       for (std::uint32_t y = 0; y < side; ++y)
         for (std::uint32_t x = 0; x < side; ++x)
           records[std::size_t{lower.y - first.y + y} * kTile + lower.x - first.x + x] = record;
@@ -166,22 +154,22 @@ class TileLister {
     for (std::uint32_t k = 0; k < 4; ++k) fill(square.quarter(k), first, lamps, settled, records);
   }
 
-  Record part(const Square& square, int splits, std::vector<Unsettled> lamps, std::vector<Shine> settled) {
+  SharpRecord part(const Square& square, int splits, std::vector<Unsettled> lamps, std::vector<LampShine> settled) {
     lamps = settle(square, std::move(lamps), settled, splits + 1);
-    Record record;
+    SharpRecord record;
     if (lamps.empty()) {
-      std::ranges::sort(settled, {}, &Shine::lamp);
+      std::ranges::sort(settled, {}, &LampShine::lamp);
       record.shines = std::move(settled);
       return record;
     }
     for (std::uint32_t k = 0; k < 4; ++k)
-      record.quarters[k] = std::make_unique<Record>(part(square.quarter(k), splits + 1, lamps, settled));
+      record.quarters[k] = std::make_unique<SharpRecord>(part(square.quarter(k), splits + 1, lamps, settled));
     return record;
   }
 
   // Moves lamps that are settled to `settled`; those that are dark are gone. splits: 0 for whole texels; else one more
   // than a texel's splits so far.
-  std::vector<Unsettled> settle(const Square& square, std::vector<Unsettled> lamps, std::vector<Shine>& settled,
+  std::vector<Unsettled> settle(const Square& square, std::vector<Unsettled> lamps, std::vector<LampShine>& settled,
                                 int splits) {
     std::vector<Unsettled> open;
     for (const Unsettled& lamp : lamps) {
@@ -195,7 +183,7 @@ class TileLister {
   Look look(const Square& square, const Unsettled& lamp, int splits) {
     const ShadowBeam beam = beam_to(lamp.lamp, square);
     if (is_beyond_cone(lamp.lamp, square)) return {};
-    Shine shine{lamp.lamp, Vec3(1), {}, {}};
+    LampShine shine{lamp.lamp, Vec3(1), {}, {}};
     for (const std::uint32_t t : lamp.casters)
       if (beam.may_meet(casters_.triangle(t))) shine.casters.push_back(t);
     if (shine.casters.empty()) return {Light::kSettled, std::move(shine), {}};
@@ -221,7 +209,7 @@ class TileLister {
       edges = edges_of_filters = true;
     }
     const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits);
-    if (splits > 0 && !edges_of_filters && shine.casters.size() <= (last ? kListedAtLast : kListed)) {
+    if (splits > 0 && !edges_of_filters && shine.casters.size() <= kListed) {
       if (filters) shine.tint = rays_to(square, shine.lamp, kRays).most;  // of panes that reach beyond the square
       if (!filters) return {Light::kSettled, std::move(shine), {}};
       if (shine.tint != Vec3(0)) {
@@ -233,7 +221,7 @@ class TileLister {
     return {Light::kOpen, {}, std::move(shine.casters)};
   }
 
-  void list_opaque(Shine& shine) const {
+  void list_opaque(LampShine& shine) const {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < shine.casters.size(); ++i)
       if (!casters_.is_filter(shine.casters[i]))
@@ -292,67 +280,9 @@ class TileLister {
   const ChartGrid& chart_;
   const std::vector<std::uint32_t>& chart_at_;  // of the page, by texel
   double level_;
-  int most_splits_;
+  int most_splits_ = kMostSharpSplits;
   std::uint64_t rays_ = 0;
 };
-
-// Numbers triangles as they come, and keeps records that are equal once.
-class SharpWriter {
- public:
-  SharpWriter(const ShadowCasters& casters, SharpLight& light) : casters_(casters), light_(light) {
-    light_.words.push_back(0);  // place 0 stands for none
-  }
-
-  std::uint32_t place_of(const Record& record) {
-    std::vector<std::uint32_t> words;
-    if (record.is_split()) {
-      words.push_back(kSharpSplit);
-      for (const auto& quarter : record.quarters) words.push_back(place_of(*quarter));
-    } else {
-      words.push_back(static_cast<std::uint32_t>(record.shines.size()));
-      for (const Shine& shine : record.shines) add(shine, words);
-    }
-    const auto [at, anew] = places_.try_emplace(words, static_cast<std::uint32_t>(light_.words.size()));
-    if (anew) light_.words.insert(light_.words.end(), words.begin(), words.end());
-    return at->second;
-  }
-
- private:
-  void add(const Shine& shine, std::vector<std::uint32_t>& words) {
-    const bool tinted = shine.tint != Vec3(1);
-    words.push_back(SharpShine{shine.lamp, tinted, static_cast<std::uint32_t>(shine.casters.size())}.code());
-    if (tinted) words.push_back(rgb9e5_from_rgb(shine.tint));
-    for (std::size_t i = 0; i < shine.casters.size(); ++i)
-      words.push_back(number_of(shine.casters[i]) | std::uint32_t{shine.edges[i]} << kSharpEdgeShift);
-  }
-
-  std::uint32_t number_of(std::uint32_t caster) {
-    const auto [at, anew] = numbers_.try_emplace(caster, static_cast<std::uint32_t>(light_.triangles.size()));
-    const BeamTriangle& t = casters_.triangle(caster);
-    if (anew) light_.triangles.push_back({Vec3(t[0]), Vec3(t[1]), Vec3(t[2])});
-    return at->second;
-  }
-
-  const ShadowCasters& casters_;
-  SharpLight& light_;
-  std::map<std::vector<std::uint32_t>, std::uint32_t> places_;
-  std::unordered_map<std::uint32_t, std::uint32_t> numbers_;
-};
-
-SharpLamp lamp_of(const Scene& scene, std::uint32_t index) {
-  const Light& light = scene.lights[index];
-  SharpLamp lamp{.sun = light.type == LightType::kDirectional,
-                 .position = light.position,
-                 .direction = light.direction,
-                 .intensity = light.intensity,
-                 .angular_radius_rad = light.angular_radius_rad};
-  if (light.type == LightType::kSpot) {
-    lamp.cos_outer = std::cos(light.outer_cone_rad);
-    lamp.inverse_falloff = 1 / std::max(kSharpestCone, std::cos(light.inner_cone_rad) - lamp.cos_outer);
-  }
-  if (!scene.light_groups.empty()) lamp.light_group = light.light_group;
-  return lamp;
-}
 
 std::vector<TileOfChart> tiles_of(const SharpCharts& sharp) {
   std::vector<TileOfChart> tiles;
@@ -368,7 +298,7 @@ void write_tile(const ListedScene& in, const TileOfChart& tile, const TileRecord
                 ShadowLists& out) {
   const std::uint32_t page = in.sharp.charts[tile.chart].page;
   const UVec2 size(in.scene.map[page].width, in.scene.map[page].height);
-  std::map<const Record*, std::uint32_t> places;
+  std::map<const SharpRecord*, std::uint32_t> places;
   for (std::uint32_t k = 0; k < records.size(); ++k) {
     const UVec2 at = tile.lower + UVec2(k % kTile, k / kTile);
     if (!records[k] || at.x >= size.x || at.y >= size.y) continue;
@@ -381,41 +311,30 @@ void write_tile(const ListedScene& in, const TileOfChart& tile, const TileRecord
   }
 }
 
-// Nothing where there are more than so many words.
-Result<std::optional<ShadowLists>> list_tiles(const ListedScene& in, int splits, std::size_t most, const Stage& stage) {
-  const Scene& scene = in.scene.transport.accel.scene();
-  const std::vector<TileOfChart> tiles = tiles_of(in.sharp);
-  ShadowLists out;
-  out.at.resize(in.scene.map.size());
-  for (const std::uint32_t light : in.sharp.lights) out.light.lamps.push_back(lamp_of(scene, light));
-  SharpWriter writer(in.casters, out.light);
-  for (std::size_t first = 0; first < tiles.size(); first += kTilesAtOnce) {
-    std::vector<TileRecords> listed(std::min(kTilesAtOnce, tiles.size() - first));
-    stage.context.foretell("sharp light", double(first) / double(tiles.size()));
-    ORIEL_TRY_VOID(parallel_for(stage, "", listed.size(), [&](std::size_t i) {
-      TileLister lister(in, tiles[first + i].chart, splits);
-      listed[i] = lister.list(tiles[first + i].lower);
-      stage.count(lister.rays());
-    }));
-    for (std::size_t i = 0; i < listed.size(); ++i) write_tile(in, tiles[first + i], listed[i], writer, out);
-    if (out.light.words.size() > most) return std::optional<ShadowLists>();
-  }
-  return std::optional(std::move(out));
-}
-
 }  // namespace
 
 Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp, const Stage& stage) {
   const ShadowCasters casters(scene.transport.accel.scene(), sharp.lights);
   const ListedScene in{scene, sharp, casters, charts_of_texels(scene.atlas, scene.map)};
-  std::size_t texels = 0;
-  for (const TexelMapPage& page : scene.map) texels += page.texel.size();
-  const std::size_t most = std::max(kFewWords, kWordsATexel * texels);
-  for (const int splits : {kMostSharpSplits, kFilterSplits, 0}) {
-    ORIEL_TRY(auto lists, list_tiles(in, splits, most, stage));
-    if (lists) return std::move(*lists);
+  const std::vector<TileOfChart> tiles = tiles_of(sharp);
+  ShadowLists out;
+  out.at.resize(scene.map.size());
+  for (const std::uint32_t light : sharp.lights)
+    out.light.lamps.push_back(sharp_lamp(scene.transport.accel.scene(), light));
+  SharpWriter writer(casters, out.light);
+  for (std::size_t first = 0; first < tiles.size(); first += kTilesAtOnce) {
+    std::vector<TileRecords> listed(std::min(kTilesAtOnce, tiles.size() - first));
+    stage.context.foretell("sharp light", double(first) / double(tiles.size()));
+    ORIEL_TRY_VOID(parallel_for(stage, "", listed.size(), [&](std::size_t i) {
+      TileLister lister(in, tiles[first + i].chart);
+      listed[i] = lister.list(tiles[first + i].lower);
+      stage.count(lister.rays());
+    }));
+    for (std::size_t i = 0; i < listed.size(); ++i) write_tile(in, tiles[first + i], listed[i], writer, out);
+    if (out.light.words.size() > kMostSharpWords || out.light.triangles.size() > kMostSharpTriangles)
+      return ShadowLists();
   }
-  return ShadowLists();
+  return out;
 }
 
 }  // namespace oriel
