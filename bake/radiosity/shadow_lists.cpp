@@ -13,10 +13,10 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTile = 16;               // texels a side, that are looked at together first
-constexpr std::size_t kListed = 16;               // triangles for one lamp: with more, quarters have fewer each
-constexpr std::size_t kTilesAtOnce = 1024;        // in memory
-constexpr std::size_t kMostOfTexel = 256;         // words: with more it is made again with fewer quarters
+constexpr std::uint32_t kTile = 16;                     // texels a side, that are looked at together first
+constexpr std::size_t kListed = 4, kListedAtLast = 16;  // triangles for one lamp: with more, quarters have fewer each
+constexpr std::size_t kTilesAtOnce = 1024;              // in memory
+constexpr std::size_t kMostOfTexel = 256;               // words: with more it is made again with fewer quarters
 constexpr int kFilterSplits = 3;                  // where cut-outs or the rims of panes need rays: eighths of a texel
 constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
 
@@ -209,7 +209,7 @@ class TileLister {
       edges = edges_of_filters = true;
     }
     const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits);
-    if (splits > 0 && !edges_of_filters && shine.casters.size() <= kListed) {
+    if (splits > 0 && !edges_of_filters && shine.casters.size() <= (last ? kListedAtLast : kListed)) {
       if (filters) shine.tint = rays_to(square, shine.lamp, kRays).most;  // of panes that reach beyond the square
       if (!filters) return {Light::kSettled, std::move(shine), {}};
       if (shine.tint != Vec3(0)) {
