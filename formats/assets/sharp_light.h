@@ -35,6 +35,9 @@ struct SharpLamp {
 inline constexpr std::uint32_t kSharpSplit = ~0u;
 inline constexpr int kMostSharpSplits = 5;  // of a texel into quarters of quarters
 inline constexpr std::uint32_t kMostSharpLamps = 1024;
+// Of a record: lamps, and triangles of each. A frame of one chart takes 40 ms more for a lamp
+// (docs/notes/sharp-light.md).
+inline constexpr std::uint32_t kMostShines = 16, kMostListed = 64;
 // So that textures of 16384 rows hold them, which OpenGL 4.1 promises.
 inline constexpr std::size_t kMostSharpWords = 1u << 25, kMostSharpTriangles = 1u << 24;
 inline constexpr int kSharpEdgeShift = 29;

@@ -28,13 +28,15 @@ std::size_t size_of_split(const SharpLight& light, std::size_t place, std::vecto
 
 std::size_t size_of_lamps(const SharpLight& light, std::size_t place, std::vector<std::uint8_t>& levels) {
   const std::span words = std::span(light.words).subspan(place);
-  if (words[0] > light.lamps.size()) return 0;
+  if (words[0] > kMostShines) return 0;
   std::size_t at = 1;
   for (std::uint32_t lamp = 0; lamp < words[0]; ++lamp) {
     if (at >= words.size()) return 0;
     const SharpShine shine = SharpShine::of(words[at]);
     at += shine.tinted ? 2 : 1;
-    if (shine.lamp >= light.lamps.size() || at > words.size() || shine.count > words.size() - at) return 0;
+    if (shine.lamp >= light.lamps.size() || shine.count > kMostListed || at > words.size() ||
+        shine.count > words.size() - at)
+      return 0;
     for (const std::uint32_t word : words.subspan(at, shine.count))
       if ((word & ((1u << kSharpEdgeShift) - 1)) >= light.triangles.size()) return 0;
     at += shine.count;
@@ -92,9 +94,9 @@ void validate_sharp_light(const Pack& pack, IssueList& list) {
   std::vector<std::uint8_t> levels;
   if (const auto bad = find_records(light, levels))
     list.error(314,
-               "word {} of {}: found no record, expected lamps and triangles that there are, or four records before "
-               "it of at most {} splits",
-               *bad, light.words.size(), kMostSharpSplits - 1);
+               "word {} of {}: found no record, expected at most {} lamps with {} triangles that there are, or four "
+               "records before it of at most {} splits",
+               *bad, light.words.size(), kMostShines, kMostListed, kMostSharpSplits - 1);
   else if (!light.words.empty() && light.words[0] != 0)
     list.error(314, "found {} lamps in the first record, expected none", light.words[0]);
 }

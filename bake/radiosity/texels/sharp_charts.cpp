@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bake/trace/punctual.h"
+#include "formats/assets/sharp_light.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -12,7 +13,6 @@ namespace {
 // A sun's radius up to which its light is sharp: a blocker a metre away then has a penumbra of a texel of 10 cm.
 constexpr float kWidestSun_rad = 0.05f;
 constexpr std::size_t kMostLights = 256;  // that DirectLight visits one by one
-constexpr std::size_t kMostOfChart = 16;  // a frame of one chart takes 40 ms more for each (docs/notes/sharp-light.md)
 // How far corners may lie off the chart's plane and grid, in texels, and normals off the plane's: a degree, as charts
 // are called flat.
 constexpr double kOffGrid = 0.02, kFlatCosine = 0.9998;
@@ -96,7 +96,7 @@ void choose_lamps(const Scene& scene, std::span<const std::uint32_t> lights, Cha
   for (const std::uint32_t l : lights)
     if (const double most = most_light(scene, scene.lights[l], chart); most > 0) by_light.emplace_back(-most, l);
   std::ranges::sort(by_light);
-  if (by_light.size() > kMostOfChart) by_light.resize(kMostOfChart);
+  if (by_light.size() > kMostShines) by_light.resize(kMostShines);
   chart.sharp.resize(scene.lights.size());
   for (const auto& [most, l] : by_light) chart.sharp[l] = true;
   chart.flat = !by_light.empty();

@@ -20,6 +20,15 @@ struct Break {
   std::function<void(Pack&)> change;
 };
 
+// A record of so many lamps with so many triangles each.
+void add_sharp_record(Pack& pack, std::uint32_t lamps, std::uint32_t triangles) {
+  pack.sharp_light.words.push_back(lamps);
+  for (; lamps > 0; --lamps) {
+    pack.sharp_light.words.push_back(SharpShine{0, false, triangles}.code());
+    pack.sharp_light.words.insert(pack.sharp_light.words.end(), triangles, 0);
+  }
+}
+
 const Break kBreaks[] = {
     {101, "MESH", [](Pack& p) { p.mesh.uvs.pop_back(); }},
     {101, "MESH", [](Pack& p) { p.mesh.colors.pop_back(); }},
@@ -101,6 +110,8 @@ const Break kBreaks[] = {
     {314, "SHRP", [](Pack& p) { p.sharp_light.words[2] = SharpShine{2, true, 2}.code(); }},
     {314, "SHRP", [](Pack& p) { p.sharp_light.words[2] = SharpShine{0, true, 0x1fffff}.code(); }},
     {314, "SHRP", [](Pack& p) { p.sharp_light.words[5] = 2; }},
+    {314, "SHRP", [](Pack& p) { add_sharp_record(p, 17, 0); }},
+    {314, "SHRP", [](Pack& p) { add_sharp_record(p, 1, 65); }},
     {314, "SHRP", [](Pack& p) { p.sharp_light.words[6] = 3; }},    // lamps
     {314, "SHRP", [](Pack& p) { p.sharp_light.words[11] = 10; }},  // itself
     {314, "SHRP", [](Pack& p) { p.sharp_light.words[11] = 15; }},  // behind it
