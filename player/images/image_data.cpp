@@ -126,8 +126,7 @@ TextureData color_texture_data(const Texture& texture, std::span<const Material>
 
 HalfPage half_page(const LightmapPage& page) {
   HalfPage out{page.width, page.height, 0, {}, halves_of(page.direction)};
-  std::vector<Vec3> smooth = page.irradiance;
-  for (std::size_t i = 0; i < page.sharp.size(); ++i) smooth[i] = glm::max(smooth[i] - page.sharp[i], Vec3(0));
+  const std::vector<Vec3> smooth = without_sharp(page);
   float brightest = 0;
   for (const std::span<const Vec3> light : {std::span<const Vec3>(smooth), std::span<const Vec3>(page.detail)})
     for (const Vec3& e : light)
