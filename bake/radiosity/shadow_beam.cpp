@@ -102,6 +102,10 @@ bool ShadowBeam::is_cut_by(const BeamTriangle& t) const {
   return std::ranges::min(heights) < -level_ && std::ranges::max(heights) > level_;
 }
 
+bool ShadowBeam::in_plane(const DVec3& a, const DVec3& b) const {
+  return std::abs(height(a)) <= level_ && std::abs(height(b)) <= level_;
+}
+
 bool ShadowBeam::is_front(const BeamTriangle& t) const {
   return glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), sun_ ? lamp_ : lamp_ - t[0]) > 0;
 }

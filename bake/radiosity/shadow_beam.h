@@ -25,6 +25,8 @@ class ShadowBeam {
   bool is_blocked_by(const BeamTriangle& triangle) const;
   // Whether the triangle passes through the parallelogram's plane.
   bool is_cut_by(const BeamTriangle& triangle) const;
+  // Whether an edge lies in the parallelogram's plane: beyond such a foot the triangle hides what it leaves lit.
+  bool in_plane(const DVec3& a, const DVec3& b) const;
   // Whether its front faces the lamp, seen from the middle.
   bool is_front(const BeamTriangle& triangle) const;
 

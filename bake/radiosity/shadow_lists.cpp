@@ -195,8 +195,9 @@ class TileLister {
       bool near = casters_.is_patterned(t) || beam.is_cut_by(triangle);
       for (std::size_t k = 0; k < 3; ++k) {
         if (!casters_.ends_shadow(t, k, beam)) continue;
-        bits |= static_cast<std::uint8_t>(1u << k);
-        near = near || beam.may_meet(triangle[k], triangle[(k + 1) % 3]);
+        const DVec3 &a = triangle[k], &b = triangle[(k + 1) % 3];
+        if (!beam.in_plane(a, b)) bits |= static_cast<std::uint8_t>(1u << k);
+        near = near || beam.may_meet(a, b);
       }
       shine.edges.push_back(bits);
       edges = edges || near;

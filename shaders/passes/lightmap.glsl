@@ -18,6 +18,9 @@ uniform bool u_directional;
 #endif
 
 centroid in vec3 v_lightmap_uv;
+#ifdef SHARP
+centroid in vec3 v_lit_position;  // beside the triangle, behind a wall, lies another shadow
+#endif
 
 const float kFullyFine = 1.5;  // steps between places up to which all points show: bilinear ones are two wide
 const float kFewPlaces = 8.0;  // steps along a side up to which four places are enough, else sixteen
@@ -82,7 +85,7 @@ vec3 irradiance_on(vec3 tilted) {
     irradiance *= directional_ratio(texture(u_direction, lightmap_uv(v_lightmap_uv)).xyz, tilted, front_normal());
 #ifdef SHARP
   vec3 normal = u_normal_mapped ? normalize(tilted) : front_normal();
-  irradiance += sharp_light(lightmap_uv(v_lightmap_uv), v_position, dx, dy, normal);
+  irradiance += sharp_light(lightmap_uv(v_lightmap_uv), v_lit_position / v_lightmap_uv.z, dx, dy, normal);
 #endif
   return irradiance;
 }

@@ -12,6 +12,9 @@ out vec3 v_position;
 out vec3 v_normal;
 out vec2 v_uv;
 centroid out vec3 v_lightmap_uv;  // lib/lightmap_uv.glsl
+#ifdef SHARP
+centroid out vec3 v_lit_position;  // likewise
+#endif
 out vec4 v_color;
 out vec2 v_normal_uv;
 out vec4 v_tangent;
@@ -22,6 +25,9 @@ void main() {
   v_normal = a_normal;
   v_uv = a_uv;
   v_lightmap_uv = vec3(a_lightmap_uv, 1.0 + float(min(gl_VertexID, 0)));  // 1 that no driver takes for a constant
+#ifdef SHARP
+  v_lit_position = a_position;
+#endif
   v_color = a_color;
   v_normal_uv = a_normal_uv;
   v_tangent = a_tangent;

@@ -225,6 +225,23 @@ TEST_F(SharpLightTest, NothingLeaksThroughTheMiddleOfASunsShadow) {
   EXPECT_GT(picture.at(48, 94).r, 0);
 }
 
+// The foot of a wall without thickness, where the floor ends, with the sun behind it.
+TEST_F(SharpLightTest, NothingLeaksBelowAWall) {
+  SharpLamp sun;
+  sun.sun = true, sun.direction = -glm::normalize(Vec3(0.3f, 1, -2)), sun.intensity = kCandela;
+  Pack pack = dark_floor();
+  pack.sharp_light.lamps = {sun};
+  const Vec3 a(-6, 0, -2), b(6, 0, -2), c(6, 4, -2), d(-6, 4, -2);
+  add_quad(pack, a, b - a, d - a, 0, -1);
+  pack.sharp_light.triangles = {{a, b, c}, {a, c, d}};
+  FrameOptions options;
+  options.samples = 4;
+  const Camera camera = look_at({0.6f, 1.3f, 1.6f}, {-0.1f, 0, -2}, 0.6f);
+  add_record(pack, {SharpShine{0, false, 2}.code(), edges(2) | 0, edges(6) | 1});
+  const Picture picture = draw(pack, camera, 97, 97, options);
+  EXPECT_EQ(*std::ranges::max_element(picture.rgb), 0);
+}
+
 TEST_F(SharpLightTest, PartsOfATexelHaveRecordsOfTheirOwn) {
   Pack pack = dark_floor();
   pack.sharp_light.lamps = {point_above()};
