@@ -39,7 +39,7 @@ export class Renderer {
   private readonly plain: Program;
   private readonly reflected: Program;
   private readonly transparent: Program;
-  private readonly sharp: Map<Program, Program>;  // the same where lamps' light is computed by pixel
+  private readonly sharp: Map<Program, Program>[];  // the same where lamps' light is computed by pixel; second: some are suns
   private readonly luminance: Program;
   private readonly average: Program;
   private readonly reflections: Reflections;
@@ -50,10 +50,10 @@ export class Renderer {
     this.depth = make('depth'), this.plainDepth = make('depth', 'PLAIN');
     this.opaque = make('scene'), this.plain = make('scene', 'PLAIN'), this.reflected = make('scene', 'REFLECTED');
     this.transparent = make('transparent'), this.luminance = make('screen_luminance'), this.average = make('screen_average');
-    this.sharp = new Map([
-      [this.opaque, make('scene', 'SHARP')], [this.plain, make('scene', 'PLAIN SHARP')], [this.reflected, make('scene', 'REFLECTED SHARP')],
-      [this.transparent, make('transparent', 'SHARP')],
-    ]);
+    this.sharp = ['SHARP', 'SHARP SUNS'].map((sharp) => new Map([
+      [this.opaque, make('scene', sharp)], [this.plain, make('scene', `PLAIN ${sharp}`)], [this.reflected, make('scene', `REFLECTED ${sharp}`)],
+      [this.transparent, make('transparent', sharp)],
+    ]));
     this.none = gl.createVertexArray()!;
     this.reflections = new Reflections(device, this, this.none);
   }
@@ -136,11 +136,11 @@ export class Renderer {
   }
 
   private programFor(range: Range, scene: GpuScene, program: Program): Program {
-    return scene.isSharp(range) ? this.sharp.get(program)! : program;
+    return scene.isSharp(range) ? this.sharp[Number(scene.hasSuns)]!.get(program)! : program;
   }
 
   private setFrame(program: Program, scene: GpuScene, view: View, distance: boolean): void {
-    const sharp = scene.hasSharp ? this.sharp.get(program) : undefined;
+    const sharp = scene.hasSharp ? this.sharp[Number(scene.hasSuns)]!.get(program) : undefined;
     if (sharp) this.setFrame(sharp, scene, view, distance);
     program.use();
     program.set('u_clip_from_pack', view.clipFromPack);

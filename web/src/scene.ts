@@ -196,6 +196,7 @@ export class GpuScene {
     this.bytes += 4 * light.words.length + 16 / 3 * light.triangles.length;
   }
   get hasSharp(): boolean { return !!this.sharp; }
+  get hasSuns(): boolean { return !!this.sharp?.suns; }
   isSharp(range: Range): boolean { return !!this.pages[range.page]?.sharpAt; }
 
   /** By group, how many times what was baked its lamps shine: what BakedLamps of player/scene/lights.h does. */

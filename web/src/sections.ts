@@ -84,6 +84,7 @@ export function checkScene(scene: Sections, textures: number, normals: number, s
   };
   const mesh = scene.mesh;
   if (!mesh) return fail('found no mesh');
+  if (scene.pages.some((p) => p.sharpAt)) fail('found sharp light on coarse pages');
   for (const p of mesh.parts) {
     within(p.material, scene.materials.length, 'material', 0);
     within(p.page, scene.pages.length, 'lightmap page');

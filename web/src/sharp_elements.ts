@@ -6,7 +6,7 @@ import type { ByteReader } from './bytes';
 import type { Page, SharpLamp, SharpLight } from './types';
 import type { Vec3 } from './vec';
 
-const split = 0xffffffff, mostSplits = 5;
+const split = 0xffffffff, mostSplits = 5, mostShines = 16, mostListed = 64;
 
 function readLamp(r: ByteReader): SharpLamp {
   const sun = r.choice(1, 'sun flag') > 0;
@@ -30,11 +30,11 @@ function recordsOf(r: ByteReader, words: Uint32Array, lamps: number, triangles: 
         level = Math.max(level, below + 1);
       }
     } else {
-      if (words[place]! > (place === 0 ? 0 : lamps)) fail();
+      if (words[place]! > (place === 0 ? 0 : mostShines)) fail();
       for (let k = words[place]!; k > 0; --k) {
         const code = words[at]!, from = at + 1 + ((code >>> 10) & 1);
         at = from + (code >>> 11);
-        if ((code & 1023) >= lamps || !(at <= words.length)) fail();
+        if ((code & 1023) >= lamps || code >>> 11 > mostListed || !(at <= words.length)) fail();
         for (let t = from; t < at; ++t) if ((words[t]! & 0x1fffffff) >= triangles) fail();
       }
     }
@@ -64,7 +64,7 @@ const diskX = [0.177, -0.226, 0.035, 0.285, -0.522, 0.495, -0.165, -0.316, 0.685
 const diskY = [0.000, 0.207, -0.394, 0.371, -0.092, -0.315, 0.616, -0.608, 0.250, 0.294, -0.734, 0.809, -0.443, -0.197, 0.779, -0.976];
 const diskStep = 0.443, endStep = 1e-7;
 
-// By direction, how much of it a triangle covers. ways: into a sun's disk, or one to a point.
+// Adds to how much of each direction is covered what a triangle does; of a point the most. ways: into a sun's disk, or one to a point.
 function coverBy(covered: number[], ways: Vec3[], corners: Vec3[], word: number, spread: number): void {
   const [a, b, c] = corners as [Vec3, Vec3, Vec3], turn = Math.sign(v.dot(v.cross(v.sub(b, a), v.sub(c, a)), a));
   const edges = [[a, b], [b, c], [c, a]].map(([from, to], k) => {
@@ -76,7 +76,8 @@ function coverBy(covered: number[], ways: Vec3[], corners: Vec3[], word: number,
       const sine = v.dot(e.inwards, way);
       return e.ends ? Math.min(Math.max(sine / (diskStep * spread + endStep) + 0.5, 0), 1) : Number(sine >= -e.hard);
     });
-    covered[i] = Math.max(covered[i]!, Math.min(...inside));
+    const least = Math.min(...inside);
+    covered[i] = spread > 0 ? covered[i]! + least : Math.max(covered[i]!, least);
   });
 }
 
@@ -84,26 +85,26 @@ function visibleShare(light: SharpLight, lamp: { towards: Vec3; distance: number
   const { towards, distance, spread } = lamp, t = towards;
   const right = v.normalize(Math.abs(t[0]) < 0.7 ? [0, t[2], -t[1]] : [-t[2], 0, t[0]], [1, 0, 0]), up = v.cross(t, right);
   const ways = spread > 0 ? diskX.map((x, i) => v.add(t, v.add(v.scale(right, spread * x), v.scale(up, spread * diskY[i]!)))) : [t];
-  const covered = ways.map(() => 0);
+  const byFacing = [0, 1].map(() => ways.map(() => 0));
   for (const word of words) {
     const at = 9 * (word & 0x1fffffff), corners = [0, 3, 6].map((k) => v.sub(Array.from(light.triangles.subarray(at + k, at + k + 3)) as Vec3, p));
-    const normal = v.cross(v.sub(corners[1]!, corners[0]!), v.sub(corners[2]!, corners[0]!)), height = v.dot(normal, corners[0]!);
-    if (height * (v.dot(normal, t) * distance - height) > 0) coverBy(covered, ways, corners, word, spread);
+    const normal = v.cross(v.sub(corners[1]!, corners[0]!), v.sub(corners[2]!, corners[0]!)), height = v.dot(normal, corners[0]!), ofLamp = v.dot(normal, t) * distance;
+    if (height * (ofLamp - height) > 0) coverBy(byFacing[ofLamp > 0 ? 0 : 1]!, ways, corners, word, spread);
   }
-  return 1 - covered.reduce((sum, c) => sum + c / covered.length, 0);
+  return 1 - ways.reduce((sum, _, i) => sum + Math.min(Math.max(byFacing[0]![i]!, byFacing[1]![i]!), 1) / ways.length, 0);
 }
 
-// Where the record of a place of a page begins.
+// Where the record of a place of a page begins; 0, of no lamps, where there are more splits than the shader follows.
 function recordAt(light: SharpLight, page: Page, s: number, t: number): number {
   const x = Math.min(Math.max(s, 0), 1) * page.width, y = Math.min(Math.max(t, 0), 1) * page.height;
   const column = Math.min(Math.floor(x), page.width - 1), row = Math.min(Math.floor(y), page.height - 1);
   let place = page.sharpAt![row * page.width + column]!, inX = x - column, inY = y - row;
-  while (light.words[place] === split) {
+  for (let k = 0; k < mostSplits && light.words[place] === split; ++k) {
     const right = Number(inX >= 0.5), below = Number(inY >= 0.5);
     inX = 2 * inX - right, inY = 2 * inY - below;
     place = light.words[place + 1 + right + 2 * below]!;
   }
-  return place;
+  return light.words[place] === split ? 0 : place;
 }
 
 /** Luminance of it at a place of a page, lux. normal: unit. */

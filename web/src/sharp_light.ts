@@ -9,13 +9,14 @@ export const sharpColumns = 4096;  // of its textures
 const rowsFor = (n: number): number => Math.max(Math.ceil(n / sharpColumns), 1);
 export const sharpRows = (light: SharpLight): number => Math.max(rowsFor(light.words.length), rowsFor(light.triangles.length / 9 * 4));
 
-export interface GpuSharp { words: WebGLTexture; triangles: WebGLTexture; lamps: WebGLTexture; }
+export interface GpuSharp { suns: boolean; words: WebGLTexture; triangles: WebGLTexture; lamps: WebGLTexture; }
 export function uploadSharp(gl: WebGL2RenderingContext, light: SharpLight, factors: Vec3[], unit: number): GpuSharp {
   const corners = light.triangles.length / 3, rows = rowsFor(light.words.length), ofTriangles = rowsFor(corners / 3 * 4);
   const words = new Uint32Array(rows * sharpColumns), triangles = new Float32Array(4 * ofTriangles * sharpColumns);
   words.set(light.words);
   for (let i = 0; i < corners; ++i) triangles.set(light.triangles.subarray(3 * i, 3 * i + 3), 4 * (i + Math.floor(i / 3)));
   return {
+    suns: light.lamps.some((l) => l.sun),
     words: makeTexture(gl, { width: sharpColumns, height: rows, format: gl.R32UI }, words),
     triangles: makeTexture(gl, { width: sharpColumns, height: ofTriangles, format: gl.RGBA32F }, triangles),
     lamps: uploadLamps(gl, light, factors, unit),
