@@ -79,8 +79,7 @@ class Bake {
     ORIEL_TRY_VOID(foretell_reflections(planned));
     ORIEL_TRY(Radiosity light, bake_lightmap());
     ORIEL_TRY(result_.ledger, keep_energy_ledger(light));
-    pack().lightmaps = std::move(light.pages);
-    pack().sharp_light = std::move(light.sharp_light);
+    pack().lightmaps = std::move(light.pages), pack().sharp_light = std::move(light.sharp_light);
     const auto eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
     ORIEL_TRY(unlit_white_, unlit_white(task(), path_options(options_), eyes));
     planned.light_reused = light.report.reuse.reused > 0;

@@ -130,16 +130,11 @@ class CachedEstimator : public LightEstimator {
 
   void store_for_reuse() {
     PreviousLight stored = stored_;
-    stored.page = texels_.page, stored.x = texels_.x, stored.y = texels_.y, stored.chart = marked_charts();
+    stored.page = texels_.page, stored.x = texels_.x, stored.y = texels_.y,
+    stored.chart = marked_charts(texels_.chart, task_.sharp);
     stored.min_distance = query_.min_distance(), stored.lamps = lamps_.particles > 0;
     stored.coarse = coarse_, stored.direct = direct_, stored.gathered = gathered_;
     store_light(context_, cache_key_, std::move(stored));
-  }
-
-  std::vector<std::uint32_t> marked_charts() const {
-    std::vector<std::uint32_t> charts = texels_.chart;
-    for (std::uint32_t& chart : charts) chart += task_.sharp ? task_.sharp->mark(chart) << 16u : 0;
-    return charts;
   }
 
   // Texels of little importance do not count.
@@ -152,7 +147,7 @@ class CachedEstimator : public LightEstimator {
     if (options_.reuse_error <= 0 || options_.bounces == 1 || query_.groups() > 0) return;
     if (auto previous = load_previous_light(context_, cache_key_, options_.directional)) {
       query_.set_min_distance(previous->min_distance);  // light is divided between paths and particles as it was then
-      reuse_.emplace(texels_, marked_charts(), std::move(*previous));
+      reuse_.emplace(texels_, marked_charts(texels_.chart, task_.sharp), std::move(*previous));
     }
   }
 

@@ -26,13 +26,6 @@ struct SharpCharts {
   std::vector<std::uint32_t>
       lights;  // Scene::lights, in the order of SharpLight::lamps; none: all light is the texels'
 
-  // Another number where other lights of a chart are apart.
-  std::uint32_t mark(std::uint32_t chart) const {
-    std::uint32_t mark = 0;
-    for (std::uint32_t l = 0; charts[chart].flat && l < charts[chart].sharp.size(); ++l)
-      mark = 31 * mark + charts[chart].sharp[l];
-    return mark;
-  }
   bool apart(std::uint32_t light, std::uint32_t chart) const {
     return charts[chart].flat && charts[chart].sharp[light];
   }
@@ -41,6 +34,9 @@ struct SharpCharts {
 // Lamps with a measured profile stay in texels, wide suns too, whose shadows have no edges that texels lose, and the
 // suns of a day. A chart has its brightest few: each costs the time of a frame.
 SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas);
+
+// Numbers of charts that differ, too, where other lights of theirs are apart. sharp: may be null.
+std::vector<std::uint32_t> marked_charts(std::vector<std::uint32_t> charts, const SharpCharts* sharp);
 
 // By page and texel: the chart of the texel's first triangle, ~0u: none.
 std::vector<std::vector<std::uint32_t>> charts_of_texels(const Atlas& atlas, std::span<const TexelMapPage> map);
