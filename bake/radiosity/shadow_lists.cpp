@@ -9,6 +9,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/sharp_records.h"
 #include "bake/trace/punctual.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
@@ -19,6 +20,10 @@ constexpr std::size_t kTilesAtOnce = 1024;              // in memory
 constexpr std::size_t kMostOfTexel = 256;               // words: with more it is made again with fewer quarters
 constexpr int kFilterSplits = 3;                  // where cut-outs or the rims of panes need rays: eighths of a texel
 constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
+constexpr std::uint32_t kRaysOfEdge = 8;          // a side, that a screen's edge is fitted to
+constexpr double kParted = 0.4;  // of a square: from the middle of what is lit to that of what is dark, half for an
+                                 // edge, a third for a penumbra
+constexpr double kScreen = 4, kOver = 8;  // half a screen's edge in squares; its height in levels
 
 // A square of texels or of a part of one, in texels of the chart's page.
 struct Square {
@@ -183,7 +188,7 @@ class TileLister {
   Look look(const Square& square, const Unsettled& lamp, int splits) {
     const ShadowBeam beam = beam_to(lamp.lamp, square);
     if (is_beyond_cone(lamp.lamp, square)) return {};
-    LampShine shine{lamp.lamp, Vec3(1), {}, {}};
+    LampShine shine{lamp.lamp, Vec3(1), {}, {}, {}};
     for (const std::uint32_t t : lamp.casters)
       if (beam.may_meet(casters_.triangle(t))) shine.casters.push_back(t);
     if (shine.casters.empty()) return {Light::kSettled, std::move(shine), {}};
@@ -218,7 +223,9 @@ class TileLister {
         return {Light::kSettled, std::move(shine), {}};
       }
     }
-    if (last) return arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean);
+    if (last)
+      return edges_of_filters ? arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean)
+                              : screened(square, lamp.lamp);
     return {Light::kOpen, {}, std::move(shine.casters)};
   }
 
@@ -230,21 +237,61 @@ class TileLister {
     shine.casters.resize(kept), shine.edges.resize(kept);
   }
 
+  // One triangle just over the square in place of too many: its shadow's edge is the straight line that parts what rays
+  // find lit from what they find dark, and leaves as much of the square lit as they find. Where nothing parts them, a
+  // share.
+  Look screened(const Square& square, std::uint32_t lamp) {
+    const Rays rays = rays_to(square, lamp, kRaysOfEdge);
+    std::vector<float> lit = rays.lit;
+    for (float& share : lit) share /= std::max(luminance(rays.most), 1e-30f);
+    DVec2 of_lit(0), of_dark(0);
+    double sum = 0;
+    for (std::uint32_t k = 0; k < lit.size(); ++k)
+      of_lit += double{lit[k]} * ray_place(k, kRaysOfEdge), of_dark += (1 - double{lit[k]}) * ray_place(k, kRaysOfEdge),
+          sum += double{lit[k]};
+    const auto count = static_cast<double>(lit.size());
+    if (!(sum > 0.5)) return {};
+    if (sum > count - 0.5) return arrived(lamp, rays.most);
+    const DVec2 across = of_lit / sum - of_dark / (count - sum);
+    if (glm::length(across) < kParted) return arrived(lamp, rays.mean);
+    const DVec2 towards = glm::normalize(across), along(-towards.y, towards.x);
+    std::vector<double> at;
+    for (std::uint32_t k = 0; k < lit.size(); ++k) at.push_back(glm::dot(towards, ray_place(k, kRaysOfEdge) - 0.5));
+    std::ranges::sort(at);
+    const auto dark = std::min(static_cast<std::size_t>(count - sum), at.size() - 1);
+    const DVec2 edge = 0.5 + towards * (0.5 * (at[dark - (dark > 0)] + at[dark]));
+    const BeamTriangle corners{over(square, edge - kScreen * along, lamp), over(square, edge + kScreen * along, lamp),
+                               over(square, edge - 2 * kScreen * towards, lamp)};
+    return {Light::kSettled, {lamp, rays.most, {}, {}, corners}, {}};
+  }
+
+  // A place of a square, its sides being 1, on the way from there to the lamp, just over the chart.
+  DVec3 over(const Square& square, const DVec2& place, std::uint32_t lamp) const {
+    const oriel::Light& light = light_of(lamp);
+    const DVec3 at = chart_.at(square.lower + square.side * place);
+    const DVec3 way = light.type == LightType::kDirectional ? -DVec3(light.direction) : DVec3(light.position) - at;
+    return at + way * (kOver * level_ / std::max(glm::dot(way, chart_.normal), kOver * level_));
+  }
+
   static Look arrived(std::uint32_t lamp, const Vec3& share) {
     if (!(max_component(share) > 0)) return {};
-    return {Light::kSettled, {lamp, share, {}, {}}, {}};
+    return {Light::kSettled, {lamp, share, {}, {}, {}}, {}};
   }
 
   // The share of a lamp's light that arrives in a square, by so many rays a side.
   struct Rays {
     Vec3 mean{0}, most{0};
-    bool even = true;  // all pass or none does
+    std::vector<float> lit;  // by ray
+    bool even = true;        // all pass or none does
   };
+  static DVec2 ray_place(std::uint32_t k, std::uint32_t side) {
+    return (DVec2(k % side, k / side) + 0.5) / double(side);
+  }
   Rays rays_to(const Square& square, std::uint32_t lamp, std::uint32_t side) {
     const oriel::Light& light = light_of(lamp);
     std::vector<Ray> rays;
     for (std::uint32_t k = 0; k < side * side; ++k) {
-      const DVec2 within = (DVec2(k % side, k / side) + 0.5) / double(side);
+      const DVec2 within = ray_place(k, side);
       // A sun's disk is sampled by the same points, in another order.
       const Vec2 of_disk((static_cast<float>(k / side) + 0.5f) / static_cast<float>(side),
                          (static_cast<float>((k * 5 + 2) % (side * side) / side) + 0.5f) / static_cast<float>(side));
@@ -269,6 +316,7 @@ class TileLister {
     for (const Vec3& light_passed : passed) {
       out.mean += light_passed / static_cast<float>(rays.size());
       out.most = glm::max(out.most, light_passed);
+      out.lit.push_back(luminance(light_passed));
       out.even = out.even && (max_component(light_passed) > 0) == (max_component(passed[0]) > 0);
     }
     return out;
@@ -325,8 +373,7 @@ Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& 
   SharpWriter writer(casters, out.light);
   for (std::size_t first = 0; first < tiles.size(); first += kTilesAtOnce) {
     std::vector<TileRecords> listed(std::min(kTilesAtOnce, tiles.size() - first));
-    stage.context.foretell("sharp light", double(first) / double(tiles.size()));
-    ORIEL_TRY_VOID(parallel_for(stage, "", listed.size(), [&](std::size_t i) {
+    ORIEL_TRY_VOID(parallel_for(stage, "sharp light", listed.size(), [&](std::size_t i) {
       TileLister lister(in, tiles[first + i].chart);
       listed[i] = lister.list(tiles[first + i].lower);
       stage.count(lister.rays());

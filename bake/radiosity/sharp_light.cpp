@@ -5,7 +5,7 @@
 namespace oriel {
 namespace {
 
-constexpr double kSharpTime = 0.1;  // of what is left: lists of what stands between texels and lamps
+constexpr double kSharpTime = 0.2;  // of what is left: lists of what stands between texels and lamps
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 
 #include "bake/radiosity/shadow_casters.h"
@@ -16,6 +17,7 @@ struct LampShine {
   Vec3 tint{1};
   std::vector<std::uint32_t> casters;  // of the scene, with the bits of their edges beside
   std::vector<std::uint8_t> edges;
+  std::optional<BeamTriangle> screen;  // stands for all that is in the way; its first edge is the shadow's
 };
 struct SharpRecord {
   std::vector<LampShine> shines;
