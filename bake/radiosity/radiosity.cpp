@@ -327,9 +327,8 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
   ShadowLists shadows;
   if (options.sharp && options.estimator == Estimator::kCached && options.hidden == Hidden::kLeftOut) {
     charts = find_sharp_charts(scene.transport.accel.scene(), scene.atlas);
-    task.sharp = &charts;
-    ORIEL_TRY(const bool all, charts.lights.empty() ? Result<bool>(false) : find_sharp_light(task, shadows));
-    if (!all) task.sharp = nullptr;
+    if (!charts.lights.empty()) ORIEL_TRY_VOID(find_sharp_light(task, charts, shadows));
+    if (!shadows.light.empty()) task.sharp = &charts;
   }
   ORIEL_TRY(const std::unique_ptr<LightEstimator> estimator, make_estimator(task));
   Radiosity light;

@@ -34,9 +34,18 @@ ShadowBeam::Side ShadowBeam::side_through(const DVec3& a, const DVec3& b, const 
 }
 
 template <class Points>
-bool ShadowBeam::beyond_a_side(const Points& points) const {
+auto ShadowBeam::margins(const Points& points) const {
+  std::array<double, std::tuple_size_v<Points>> margins;
+  for (std::size_t k = 0; k < points.size(); ++k) margins[k] = level_ + spread(points[k]);
+  return margins;
+}
+
+template <class Points, class Margins>
+bool ShadowBeam::beyond_a_side(const Points& points, const Margins& margins) const {
   return std::ranges::any_of(sides_, [&](const Side& side) {
-    return std::ranges::all_of(points, [&](const DVec3& p) { return side.beyond(p) > level_ + spread(p); });
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (side.beyond(points[k]) <= margins[k]) return false;
+    return true;
   });
 }
 
@@ -48,9 +57,7 @@ bool ShadowBeam::beyond_in_height(const Points& points, bool in_plane) const {
          std::ranges::all_of(points, [&](const DVec3& p) { return height(p) >= top_ - level_; });
 }
 
-bool ShadowBeam::is_beyond_edge(const DVec3& a, const DVec3& b, const DVec3& inside) const {
-  const Side side = side_through(a, b, inside);
-  const double margin = level_ + std::max({spread(a), spread(b), spread(inside)});
+bool ShadowBeam::is_beyond_edge(const Side& side, double margin) const {
   return std::ranges::all_of(corners_, [&](const DVec3& corner) { return side.beyond(corner) > margin; });
 }
 
@@ -59,25 +66,27 @@ bool ShadowBeam::may_meet(const TreeBox& box) const {
   for (std::size_t k = 0; k < 8; ++k)
     corners[k] = {k & 1 ? box.upper.x : box.lower.x, k & 2 ? box.upper.y : box.lower.y,
                   k & 4 ? box.upper.z : box.lower.z};
-  return !beyond_in_height(corners, true) && !beyond_a_side(corners);
+  return !beyond_in_height(corners, true) && !beyond_a_side(corners, margins(corners));
 }
 
 bool ShadowBeam::may_meet(const BeamTriangle& t) const {
-  if (beyond_in_height(t, false) || beyond_a_side(t)) return false;
+  if (beyond_in_height(t, false)) return false;
+  const auto of_corners = margins(t);
+  if (beyond_a_side(t, of_corners)) return false;
+  const double most = std::ranges::max(of_corners);
   for (std::size_t k = 0; k < 3; ++k)
-    if (is_beyond_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3])) return false;
+    if (is_beyond_edge(side_through(t[k], t[(k + 1) % 3], t[(k + 2) % 3]), most)) return false;
   return true;
 }
 
 bool ShadowBeam::may_meet(const DVec3& a, const DVec3& b) const {
   const std::array<DVec3, 2> edge{a, b};
-  if (beyond_in_height(edge, true) || beyond_a_side(edge)) return false;
+  if (beyond_in_height(edge, true)) return false;
+  const auto of_ends = margins(edge);
+  if (beyond_a_side(edge, of_ends)) return false;
   const Side side = side_through(a, b, middle_ + normal_);
-  const double margin = level_ + std::max(spread(a), spread(b));
-  const auto beyond = [&](double turn) {
-    return std::ranges::all_of(corners_, [&](const DVec3& corner) { return turn * side.beyond(corner) > margin; });
-  };
-  return !beyond(1) && !beyond(-1);
+  const double most = std::ranges::max(of_ends);
+  return !is_beyond_edge(side, most) && !is_beyond_edge({side.from, -side.outwards}, most);
 }
 
 bool ShadowBeam::is_blocked_by(const BeamTriangle& t) const {
@@ -104,10 +113,6 @@ bool ShadowBeam::is_cut_by(const BeamTriangle& t) const {
 
 bool ShadowBeam::in_plane(const DVec3& a, const DVec3& b) const {
   return std::abs(height(a)) <= level_ && std::abs(height(b)) <= level_;
-}
-
-bool ShadowBeam::is_front(const BeamTriangle& t) const {
-  return glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), sun_ ? lamp_ : lamp_ - t[0]) > 0;
 }
 
 }  // namespace oriel

@@ -27,8 +27,6 @@ class ShadowBeam {
   bool is_cut_by(const BeamTriangle& triangle) const;
   // Whether an edge lies in the parallelogram's plane: beyond such a foot the triangle hides what it leaves lit.
   bool in_plane(const DVec3& a, const DVec3& b) const;
-  // Whether its front faces the lamp, seen from the middle.
-  bool is_front(const BeamTriangle& triangle) const;
 
  private:
   // A plane through two points and the lamp, and how far a place is beyond it, m.
@@ -39,13 +37,16 @@ class ShadowBeam {
   Side side_through(const DVec3& a, const DVec3& b, const DVec3& inside) const;
   double height(const DVec3& p) const { return glm::dot(normal_, p - corners_[0]); }
   // How far a sun's disk spreads the rays at that distance from the parallelogram, m.
-  double spread(const DVec3& p) const { return tangent_ * (glm::length(p - middle_) + reach_); }
+  double spread(const DVec3& p) const { return tangent_ > 0 ? tangent_ * (glm::length(p - middle_) + reach_) : 0; }
+  // margins: of each point.
   template <class Points>
-  bool beyond_a_side(const Points& points) const;
+  auto margins(const Points& points) const;
+  template <class Points, class Margins>
+  bool beyond_a_side(const Points& points, const Margins& margins) const;
   template <class Points>
   bool beyond_in_height(const Points& points, bool in_plane) const;
-  // Whether the parallelogram lies on the far side of the plane through an edge and the lamp, all of it.
-  bool is_beyond_edge(const DVec3& a, const DVec3& b, const DVec3& inside) const;
+  // Whether the parallelogram lies on the far side of the plane through an edge and the lamp, by more than that.
+  bool is_beyond_edge(const Side& side, double margin) const;
 
   std::array<DVec3, 4> corners_;
   DVec3 normal_, middle_;

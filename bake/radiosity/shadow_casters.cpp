@@ -47,8 +47,7 @@ ShadowCasters::ShadowCasters(const Scene& scene, std::span<const std::uint32_t> 
   }
   join_edges(scene);
   find_bodies();
-  for (const std::uint32_t light : lights)
-    spared_.push_back(spared_by(scene.lights[light], kLevel * double{scene.radius()}));
+  for (const std::uint32_t light : lights) look_from(scene.lights[light], kLevel * double{scene.radius()});
   if (!order_.empty()) add_node(0, order_.size());
 }
 
@@ -104,7 +103,7 @@ void ShadowCasters::find_bodies() {
   }
 }
 
-std::vector<bool> ShadowCasters::spared_by(const Light& light, double level) const {
+void ShadowCasters::look_from(const Light& light, double level) {
   const bool sun = light.type == LightType::kDirectional;
   const DVec3 place(sun ? -light.direction : light.position);
   // How often each body winds about a lamp, times 2π, by solid angles (Van Oosterom and Strackee 1983).
@@ -116,17 +115,17 @@ std::vector<bool> ShadowCasters::spared_by(const Light& light, double level) con
     about[body_[t]] += std::atan2(glm::dot(a, glm::cross(b, c)),
                                   la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
   }
-  std::vector<bool> spared(triangles_.size());
+  std::vector<bool>&spared = spared_.emplace_back(triangles_.size()), &front = fronts_.emplace_back(triangles_.size());
   for (const std::uint32_t t : order_) {
     const auto& [a, b, c] = triangles_[t];
     const DVec3 normal = glm::cross(b - a, c - a);
     const double faces = glm::dot(normal, sun ? place : place - a);
+    front[t] = faces > 0;
     // A lamp on a wall is in its plane, by rounding before or behind it: neither casts a shadow.
     spared[t] = !sun && std::abs(faces) <= level * glm::length(normal);
     if (body_[t] == ~0u || std::abs(about[body_[t]]) > 1) continue;
     spared[t] = spared[t] || faces * volume_[body_[t]] < 0;
   }
-  return spared;
 }
 
 // Halves by the longest side of the boxes' middles.
@@ -171,10 +170,10 @@ std::vector<std::uint32_t> ShadowCasters::in(const ShadowBeam& beam, std::size_t
   return found;
 }
 
-bool ShadowCasters::ends_shadow(std::uint32_t t, std::size_t k, const ShadowBeam& beam) const {
+bool ShadowCasters::ends_shadow(std::uint32_t t, std::size_t k, std::size_t lamp) const {
   const std::uint32_t other = beyond_[3 * std::size_t{t} + k];
   if (other == ~0u || filters_[t] != filters_[other]) return true;
-  return (beam.is_front(triangles_[t]) == beam.is_front(triangles_[other])) != alike_[3 * std::size_t{t} + k];
+  return (fronts_[lamp][t] == fronts_[lamp][other]) != alike_[3 * std::size_t{t} + k];
 }
 
 }  // namespace oriel

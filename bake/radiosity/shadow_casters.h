@@ -24,7 +24,7 @@ class ShadowCasters {
   std::vector<std::uint32_t> in(const ShadowBeam& beam, std::size_t lamp) const;
   // Whether a shadow may end at edge k, from corner k to k + 1: no other triangle continues the surface there, or one
   // that faces the lamp with its other side, or that lets light through where this one does not.
-  bool ends_shadow(std::uint32_t t, std::size_t k, const ShadowBeam& beam) const;
+  bool ends_shadow(std::uint32_t t, std::size_t k, std::size_t lamp) const;
 
  private:
   struct Node {
@@ -33,7 +33,7 @@ class ShadowCasters {
   };
   void join_edges(const Scene& scene);
   void find_bodies();
-  std::vector<bool> spared_by(const Light& light, double level) const;
+  void look_from(const Light& light, double level);
   void add_node(std::size_t first, std::size_t count);
 
   std::vector<BeamTriangle> triangles_;
@@ -43,9 +43,10 @@ class ShadowCasters {
   // By triangle and edge: the triangle beyond it, ~0u: none or several; and whether both wind the same way.
   std::vector<std::uint32_t> beyond_;
   std::vector<bool> alike_;
-  std::vector<std::uint32_t> body_;        // by triangle, ~0u: of no closed body
-  std::vector<double> volume_;             // by body: its sign is that of fronts outwards
-  std::vector<std::vector<bool>> spared_;  // by lamp and triangle: another one of its body is in the way as well
+  std::vector<std::uint32_t> body_;  // by triangle, ~0u: of no closed body
+  std::vector<double> volume_;       // by body: its sign is that of fronts outwards
+  // By lamp and triangle: whether its front faces the lamp; whether another one of its body is in the way as well.
+  std::vector<std::vector<bool>> fronts_, spared_;
 };
 
 }  // namespace oriel

@@ -2,6 +2,8 @@
 // (formats/assets/sharp_light.h, docs/notes/sharp-light.md).
 #pragma once
 
+#include <functional>
+
 #include "bake/jobs/context.h"
 #include "bake/radiosity/texels/lightmap_scene.h"
 #include "bake/radiosity/texels/sharp_charts.h"
@@ -13,9 +15,12 @@ namespace oriel {
 struct ShadowLists {
   SharpLight light;
   std::vector<std::vector<std::uint32_t>> at;  // by page: LightmapPage::sharp_at; empty: nothing on this page
+  std::vector<std::uint32_t> left_out;         // charts
 };
 
-// Without lamps where what stands in their way is too much to list. Error kStopped.
-Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp, const Stage& stage);
+// Ends where there is `enough`, which may be empty, or too much to store: charts are left out then, small ones first.
+// Error kStopped.
+Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& sharp,
+                                 const std::function<bool()>& enough, const Stage& stage);
 
 }  // namespace oriel

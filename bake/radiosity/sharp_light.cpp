@@ -1,5 +1,7 @@
 #include "bake/radiosity/sharp_light.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace oriel {
@@ -9,21 +11,19 @@ constexpr double kSharpTime = 0.2;  // of what is left: lists of what stands bet
 
 }  // namespace
 
-Result<bool> find_sharp_light(const RadiosityTask& task, ShadowLists& shadows) {
+Status find_sharp_light(const RadiosityTask& task, SharpCharts& charts, ShadowLists& shadows) {
   const double most = task.options.left ? (1 - kSharpTime) * task.options.left() : 0;
   const auto late = [&] { return task.options.left() < most; };
-  ORIEL_TRY(const bool all,
-            done_in_time(task.context, task.options.left ? late : std::function<bool()>(), [&]() -> Status {
-              ORIEL_TRY(shadows, list_shadows(task, *task.sharp, task.quick));
-              return {};
-            }));
-  if (!all)
-    task.context.warning({"shadows of points, spots and suns are as coarse as texels: --time left none for finer ones",
-                          WarningKind::kTimeOver});
-  else if (shadows.light.empty())
+  ORIEL_TRY(shadows, list_shadows(task, charts, task.options.left ? late : std::function<bool()>(), task.quick));
+  for (const std::uint32_t chart : shadows.left_out) charts.charts[chart].flat = false;
+  if (!shadows.left_out.empty())
     task.context.warning(
-        "shadows of points, spots and suns are as coarse as texels: too many triangles stand in their way");
-  return all && !shadows.light.empty();
+        {fmt::format("shadows of points, spots and suns are as coarse as texels on {} of {} flat charts: "
+                     "--time left none for finer ones, or they took too much room",
+                     shadows.left_out.size(),
+                     std::ranges::count_if(charts.charts, &ChartGrid::flat) + std::ssize(shadows.left_out)),
+         WarningKind::kTimeOver});
+  return {};
 }
 
 void leave_out_sharp_ends(const RadiosityTask& task, Seams& seams) {

@@ -8,8 +8,8 @@
 
 namespace oriel {
 
-// What stands in the way of task.sharp, not null. False where there was no time for it.
-Result<bool> find_sharp_light(const RadiosityTask& task, ShadowLists& shadows);
+// What stands in the way of charts' light. Charts for which there is no time are flat no more.
+Status find_sharp_light(const RadiosityTask& task, SharpCharts& charts, ShadowLists& shadows);
 
 // Where one side's light is partly computed by pixel and the other's is not, texels must differ.
 void leave_out_sharp_ends(const RadiosityTask& task, Seams& seams);

@@ -1,0 +1,331 @@
+// The lists of one tile: a square of texels of a flat chart. Private to shadow_lists.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "bake/radiosity/sharp_records.h"
+#include "bake/radiosity/texels/lightmap_scene.h"
+#include "bake/radiosity/texels/sharp_charts.h"
+#include "bake/trace/punctual.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+
+inline constexpr std::uint32_t kTile = 16;  // texels a side, that are looked at together first
+inline constexpr std::size_t kListed = 4,
+                             kListedAtLast = 16;  // triangles for one lamp: with more, quarters have fewer each
+inline constexpr std::size_t kMostOfTexel = 256;  // words: with more it is made again with fewer quarters
+inline constexpr int kFilterSplits = 3;           // where cut-outs or the rims of panes need rays: eighths of a texel
+inline constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
+inline constexpr std::uint32_t kRaysOfEdge = 8;          // a side, that a screen's edge is fitted to
+inline constexpr double kParted = 0.4;  // of a square: from the middle of what is lit to that of what is dark, half for
+                                        // an edge, a third for a penumbra
+inline constexpr double kScreen = 4, kOver = 8;  // half a screen's edge in squares; its height in levels
+
+// A square of texels or of a part of one, in texels of the chart's page.
+struct Square {
+  DVec2 lower{0};
+  double side = 1;
+  Square quarter(std::uint32_t k) const { return {lower + 0.5 * side * DVec2(k & 1u, k >> 1u), 0.5 * side}; }
+};
+
+// A lamp whose shadows in a square are not settled: what may stand in its way.
+struct Unsettled {
+  std::uint32_t lamp = 0;
+  std::vector<std::uint32_t> casters;
+};
+
+// The records of a tile's texels, by y * kTile + x; several may be one.
+using TileRecords = std::vector<std::shared_ptr<const SharpRecord>>;
+
+// What all tiles ask.
+struct ListedScene {
+  const LightmapScene& scene;
+  const SharpCharts& sharp;
+  const ShadowCasters& casters;
+  std::vector<std::vector<std::uint32_t>> charts;  // charts_of_texels()
+};
+
+class TileLister {
+ public:
+  TileLister(const ListedScene& in, std::uint32_t chart)
+      : scene_(in.scene),
+        sharp_(in.sharp),
+        casters_(in.casters),
+        chart_number_(chart),
+        chart_(in.sharp.charts[chart]),
+        chart_at_(in.charts[chart_.page]),
+        level_(kLevel * double{in.scene.transport.accel.scene().radius()} + chart_.off) {}
+
+  std::uint64_t rays() const { return rays_; }
+
+  TileRecords list(const UVec2& lower) {
+    TileRecords records(std::size_t{kTile} * kTile);
+    const Square tile{DVec2(lower), kTile};
+    std::vector<Unsettled> lamps;
+    for (std::uint32_t lamp = 0; lamp < sharp_.lights.size(); ++lamp) {
+      if (!chart_.sharp[sharp_.lights[lamp]]) continue;
+      const ShadowBeam beam = beam_to(lamp, tile);
+      if (!beam.faces_lamp() || is_beyond_cone(lamp, tile)) continue;
+      lamps.push_back({lamp, casters_.in(beam, lamp)});
+      std::erase_if(lamps.back().casters, [&](std::uint32_t t) { return is_own(t); });
+    }
+    fill(tile, lower, std::move(lamps), {}, records);
+    return records;
+  }
+
+ private:
+  enum class Light { kNone, kSettled, kOpen };
+  struct Look {
+    Light light = Light::kNone;
+    LampShine shine;
+    std::vector<std::uint32_t> casters;  // kOpen
+  };
+
+  const oriel::Light& light_of(std::uint32_t lamp) const {
+    return scene_.transport.accel.scene().lights[sharp_.lights[lamp]];
+  }
+
+  // Of the chart itself, or its other side.
+  bool is_own(std::uint32_t t) const {
+    const std::vector<std::uint32_t>& twin = scene_.transport.accel.scene().twin;
+    const auto chart_of = [&](std::uint32_t triangle) { return triangle == ~0u ? ~0u : scene_.atlas.chart[triangle]; };
+    return chart_of(t) == chart_number_ || (!twin.empty() && chart_of(twin[t]) == chart_number_);
+  }
+
+  ShadowBeam beam_to(std::uint32_t lamp, const Square& s) const {
+    const DVec2 &a = s.lower, b = s.lower + s.side;
+    return {light_of(lamp),
+            {chart_.at(a), chart_.at({b.x, a.y}), chart_.at(b), chart_.at({a.x, b.y})},
+            chart_.normal,
+            level_};
+  }
+
+  bool is_beyond_cone(std::uint32_t lamp, const Square& s) const {
+    const oriel::Light& light = light_of(lamp);
+    if (light.type != LightType::kSpot) return false;
+    const DVec3 to = chart_.at(s.lower + 0.5 * s.side) - DVec3(light.position);
+    const double reach = 0.5 * s.side * (glm::length(chart_.along_x) + glm::length(chart_.along_y));
+    const double distance = glm::length(to);
+    if (distance <= reach) return false;
+    const double off = std::acos(std::clamp(glm::dot(to, DVec3(light.direction)) / distance, -1.0, 1.0));
+    return off - std::asin(reach / distance) > double{light.outer_cone_rad};
+  }
+
+  bool is_covered(const UVec2& lower, std::uint32_t side) const {
+    const std::uint32_t width = scene_.map[chart_.page].width, height = scene_.map[chart_.page].height;
+    for (std::uint32_t y = lower.y; y < std::min(lower.y + side, height); ++y)
+      for (std::uint32_t x = lower.x; x < std::min(lower.x + side, width); ++x)
+        if (chart_at_[std::size_t{y} * width + x] == chart_number_) return true;
+    return false;
+  }
+
+  // Settles what it can in a square of whole texels and goes on in its quarters.
+  void fill(const Square& square, const UVec2& first, std::vector<Unsettled> lamps, std::vector<LampShine> settled,
+            TileRecords& records) {
+    const auto side = static_cast<std::uint32_t>(square.side);
+    const UVec2 lower(square.lower);
+    if (!is_covered(lower, side)) return;
+    if (side == 1) {
+      SharpRecord record;
+      for (const int splits : {kMostSharpSplits, kFilterSplits, 2, 1, 0}) {
+        most_splits_ = splits;
+        record = part(square, 0, lamps, settled);
+        if (record.words() <= kMostOfTexel) break;
+      }
+      if (record.is_split() || !record.shines.empty())
+        records[std::size_t{lower.y - first.y} * kTile + lower.x - first.x] =
+            std::make_shared<SharpRecord>(std::move(record));
+      return;
+    }
+    lamps = settle(square, std::move(lamps), settled, 0);
+    if (lamps.empty()) {
+      std::ranges::sort(settled, {}, &LampShine::lamp);
+      const auto record =
+          settled.empty() ? nullptr : std::make_shared<SharpRecord>(SharpRecord{std::move(settled), {}});
+      for (std::uint32_t y = 0; y < side; ++y)
+        for (std::uint32_t x = 0; x < side; ++x)
+          records[std::size_t{lower.y - first.y + y} * kTile + lower.x - first.x + x] = record;
+      return;
+    }
+    for (std::uint32_t k = 0; k < 4; ++k) fill(square.quarter(k), first, lamps, settled, records);
+  }
+
+  SharpRecord part(const Square& square, int splits, std::vector<Unsettled> lamps, std::vector<LampShine> settled) {
+    lamps = settle(square, std::move(lamps), settled, splits + 1);
+    SharpRecord record;
+    if (lamps.empty()) {
+      std::ranges::sort(settled, {}, &LampShine::lamp);
+      record.shines = std::move(settled);
+      return record;
+    }
+    for (std::uint32_t k = 0; k < 4; ++k)
+      record.quarters[k] = std::make_unique<SharpRecord>(part(square.quarter(k), splits + 1, lamps, settled));
+    return record;
+  }
+
+  // Moves lamps that are settled to `settled`; those that are dark are gone. splits: 0 for whole texels; else one more
+  // than a texel's splits so far.
+  std::vector<Unsettled> settle(const Square& square, std::vector<Unsettled> lamps, std::vector<LampShine>& settled,
+                                int splits) {
+    std::vector<Unsettled> open;
+    for (const Unsettled& lamp : lamps) {
+      Look found = look(square, lamp, splits);
+      if (found.light == Light::kSettled) settled.push_back(std::move(found.shine));
+      if (found.light == Light::kOpen) open.push_back({lamp.lamp, std::move(found.casters)});
+    }
+    return open;
+  }
+
+  Look look(const Square& square, const Unsettled& lamp, int splits) {
+    const ShadowBeam beam = beam_to(lamp.lamp, square);
+    if (is_beyond_cone(lamp.lamp, square)) return {};
+    LampShine shine{lamp.lamp, Vec3(1), {}, {}, {}};
+    for (const std::uint32_t t : lamp.casters)
+      if (beam.may_meet(casters_.triangle(t))) shine.casters.push_back(t);
+    if (shine.casters.empty()) return {Light::kSettled, std::move(shine), {}};
+    bool edges = false, edges_of_filters = false, filters = false;
+    for (const std::uint32_t t : shine.casters) {
+      const BeamTriangle& triangle = casters_.triangle(t);
+      if (!casters_.is_filter(t) && beam.is_blocked_by(triangle)) return {};
+      std::uint8_t bits = 0;
+      bool near = casters_.is_patterned(t) || beam.is_cut_by(triangle);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!casters_.ends_shadow(t, k, lamp.lamp)) continue;
+        const DVec3 &a = triangle[k], &b = triangle[(k + 1) % 3];
+        if (!beam.in_plane(a, b)) bits |= static_cast<std::uint8_t>(1u << k);
+        near = near || beam.may_meet(a, b);
+      }
+      shine.edges.push_back(bits);
+      edges = edges || near;
+      filters = filters || casters_.is_filter(t);
+      edges_of_filters = edges_of_filters || (near && casters_.is_filter(t));
+    }
+    if (!edges) {
+      const Rays few = rays_to(square, lamp.lamp, kFewRays);
+      if (few.even) return arrived(lamp.lamp, few.mean);
+      edges = edges_of_filters = true;
+    }
+    const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits);
+    if (splits > 0 && !edges_of_filters && shine.casters.size() <= (last ? kListedAtLast : kListed)) {
+      if (filters) shine.tint = rays_to(square, shine.lamp, kRays).most;  // of panes that reach beyond the square
+      if (!filters) return {Light::kSettled, std::move(shine), {}};
+      if (shine.tint != Vec3(0)) {
+        list_opaque(shine);
+        return {Light::kSettled, std::move(shine), {}};
+      }
+    }
+    if (last)
+      return edges_of_filters ? arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean)
+                              : screened(square, lamp.lamp);
+    return {Light::kOpen, {}, std::move(shine.casters)};
+  }
+
+  void list_opaque(LampShine& shine) const {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < shine.casters.size(); ++i)
+      if (!casters_.is_filter(shine.casters[i]))
+        shine.casters[kept] = shine.casters[i], shine.edges[kept++] = shine.edges[i];
+    shine.casters.resize(kept), shine.edges.resize(kept);
+  }
+
+  // One triangle just over the square in place of too many: its shadow's edge is the straight line that parts what rays
+  // find lit from what they find dark, and leaves as much of the square lit as they find. Where nothing parts them, a
+  // share.
+  Look screened(const Square& square, std::uint32_t lamp) {
+    const Rays rays = rays_to(square, lamp, kRaysOfEdge);
+    std::vector<float> lit = rays.lit;
+    for (float& share : lit) share /= std::max(luminance(rays.most), 1e-30f);
+    DVec2 of_lit(0), of_dark(0);
+    double sum = 0;
+    for (std::uint32_t k = 0; k < lit.size(); ++k)
+      of_lit += double{lit[k]} * ray_place(k, kRaysOfEdge), of_dark += (1 - double{lit[k]}) * ray_place(k, kRaysOfEdge),
+          sum += double{lit[k]};
+    const auto count = static_cast<double>(lit.size());
+    if (!(sum > 0.5)) return {};
+    if (sum > count - 0.5) return arrived(lamp, rays.most);
+    const DVec2 across = of_lit / sum - of_dark / (count - sum);
+    if (glm::length(across) < kParted) return arrived(lamp, rays.mean);
+    const DVec2 towards = glm::normalize(across), along(-towards.y, towards.x);
+    std::vector<double> at;
+    for (std::uint32_t k = 0; k < lit.size(); ++k) at.push_back(glm::dot(towards, ray_place(k, kRaysOfEdge) - 0.5));
+    std::ranges::sort(at);
+    const auto dark = std::min(static_cast<std::size_t>(count - sum), at.size() - 1);
+    const DVec2 edge = 0.5 + towards * (0.5 * (at[dark - (dark > 0)] + at[dark]));
+    const BeamTriangle corners{over(square, edge - kScreen * along, lamp), over(square, edge + kScreen * along, lamp),
+                               over(square, edge - 2 * kScreen * towards, lamp)};
+    return {Light::kSettled, {lamp, rays.most, {}, {}, corners}, {}};
+  }
+
+  // A place of a square, its sides being 1, on the way from there to the lamp, just over the chart.
+  DVec3 over(const Square& square, const DVec2& place, std::uint32_t lamp) const {
+    const oriel::Light& light = light_of(lamp);
+    const DVec3 at = chart_.at(square.lower + square.side * place);
+    const DVec3 way = light.type == LightType::kDirectional ? -DVec3(light.direction) : DVec3(light.position) - at;
+    return at + way * (kOver * level_ / std::max(glm::dot(way, chart_.normal), kOver * level_));
+  }
+
+  static Look arrived(std::uint32_t lamp, const Vec3& share) {
+    if (!(max_component(share) > 0)) return {};
+    return {Light::kSettled, {lamp, share, {}, {}, {}}, {}};
+  }
+
+  // The share of a lamp's light that arrives in a square, by so many rays a side.
+  struct Rays {
+    Vec3 mean{0}, most{0};
+    std::vector<float> lit;  // by ray
+    bool even = true;        // all pass or none does
+  };
+  static DVec2 ray_place(std::uint32_t k, std::uint32_t side) {
+    return (DVec2(k % side, k / side) + 0.5) / double(side);
+  }
+  Rays rays_to(const Square& square, std::uint32_t lamp, std::uint32_t side) {
+    const oriel::Light& light = light_of(lamp);
+    std::vector<Ray> rays;
+    for (std::uint32_t k = 0; k < side * side; ++k) {
+      const DVec2 within = ray_place(k, side);
+      // A sun's disk is sampled by the same points, in another order.
+      const Vec2 of_disk((static_cast<float>(k / side) + 0.5f) / static_cast<float>(side),
+                         (static_cast<float>((k * 5 + 2) % (side * side) / side) + 0.5f) / static_cast<float>(side));
+      Ray ray;
+      const Vec3 at(chart_.at(square.lower + square.side * within) + 8 * level_ * chart_.normal);
+      ray.origin = offset_origin(at, Vec3(chart_.normal), max_component(glm::abs(at)));
+      ray.past_frosted = false;
+      if (light.type == LightType::kDirectional) {
+        ray.direction = light.angular_radius_rad > 0 ? sample_cone(-light.direction, light.angular_radius_rad, of_disk)
+                                                     : -light.direction;
+      } else {
+        const Vec3 to = light.position - ray.origin;
+        ray.max_distance = glm::length(to);
+        ray.direction = to / ray.max_distance;
+      }
+      rays.push_back(ray);
+    }
+    std::vector<Vec3> passed(rays.size());
+    scene_.transport.accel.transmittance(rays, passed);
+    rays_ += rays.size();
+    Rays out;
+    for (const Vec3& light_passed : passed) {
+      out.mean += light_passed / static_cast<float>(rays.size());
+      out.most = glm::max(out.most, light_passed);
+      out.lit.push_back(luminance(light_passed));
+      out.even = out.even && (max_component(light_passed) > 0) == (max_component(passed[0]) > 0);
+    }
+    return out;
+  }
+
+  const LightmapScene& scene_;
+  const SharpCharts& sharp_;
+  const ShadowCasters& casters_;
+  std::uint32_t chart_number_;
+  const ChartGrid& chart_;
+  const std::vector<std::uint32_t>& chart_at_;  // of the page, by texel
+  double level_;
+  int most_splits_ = kMostSharpSplits;
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace oriel
