@@ -21,6 +21,7 @@ inline constexpr std::size_t kMostOfTexel = 256;  // words: with more it is made
 inline constexpr int kFilterSplits = 3;           // where cut-outs or the rims of panes need rays: eighths of a texel
 inline constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
 inline constexpr std::uint32_t kRaysOfEdge = 8;          // a side, that a screen's edge is fitted to
+inline constexpr float kLitShare = 0.5f;                 // of the most that arrives: less is neither lit nor dark
 inline constexpr double kParted = 0.4;  // of a square: from the middle of what is lit to that of what is dark, half for
                                         // an edge, a third for a penumbra
 inline constexpr double kScreen = 4, kOver = 8;  // half a screen's edge in squares; its height in levels
@@ -187,7 +188,7 @@ class TileLister {
     for (const std::uint32_t t : lamp.casters)
       if (beam.may_meet(casters_.triangle(t))) shine.casters.push_back(t);
     if (shine.casters.empty()) return {Light::kSettled, std::move(shine), {}};
-    bool edges = false, edges_of_filters = false, filters = false;
+    bool edges = false, edges_of_filters = false, filters = false, patterned = false;
     for (const std::uint32_t t : shine.casters) {
       const BeamTriangle& triangle = casters_.triangle(t);
       if (!casters_.is_filter(t) && beam.is_blocked_by(triangle)) return {};
@@ -202,6 +203,7 @@ class TileLister {
       shine.edges.push_back(bits);
       edges = edges || near;
       filters = filters || casters_.is_filter(t);
+      patterned = patterned || casters_.is_patterned(t);
       edges_of_filters = edges_of_filters || (near && casters_.is_filter(t));
     }
     if (!edges) {
@@ -212,15 +214,13 @@ class TileLister {
     const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits);
     if (splits > 0 && !edges_of_filters && shine.casters.size() <= (last ? kListedAtLast : kListed)) {
       if (filters) shine.tint = rays_to(square, shine.lamp, kRays).most;  // of panes that reach beyond the square
-      if (!filters) return {Light::kSettled, std::move(shine), {}};
       if (shine.tint != Vec3(0)) {
-        list_opaque(shine);
+        if (filters) list_opaque(shine);
         return {Light::kSettled, std::move(shine), {}};
       }
     }
     if (last)
-      return edges_of_filters ? arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean)
-                              : screened(square, lamp.lamp);
+      return patterned ? arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean) : screened(square, lamp.lamp);
     return {Light::kOpen, {}, std::move(shine.casters)};
   }
 
@@ -237,8 +237,12 @@ class TileLister {
   // share.
   Look screened(const Square& square, std::uint32_t lamp) {
     const Rays rays = rays_to(square, lamp, kRaysOfEdge);
+    // What a pane lets through is lit, too.
     std::vector<float> lit = rays.lit;
-    for (float& share : lit) share /= std::max(luminance(rays.most), 1e-30f);
+    for (float& share : lit) {
+      if (share > 0 && share < kLitShare * luminance(rays.most)) return arrived(lamp, rays.mean);
+      share = share > 0 ? 1.0f : 0.0f;
+    }
     DVec2 of_lit(0), of_dark(0);
     double sum = 0;
     for (std::uint32_t k = 0; k < lit.size(); ++k)
@@ -246,7 +250,7 @@ class TileLister {
           sum += double{lit[k]};
     const auto count = static_cast<double>(lit.size());
     if (!(sum > 0.5)) return {};
-    if (sum > count - 0.5) return arrived(lamp, rays.most);
+    if (sum > count - 0.5) return arrived(lamp, rays.mean);
     const DVec2 across = of_lit / sum - of_dark / (count - sum);
     if (glm::length(across) < kParted) return arrived(lamp, rays.mean);
     const DVec2 towards = glm::normalize(across), along(-towards.y, towards.x);
@@ -257,7 +261,7 @@ class TileLister {
     const DVec2 edge = 0.5 + towards * (0.5 * (at[dark - (dark > 0)] + at[dark]));
     const BeamTriangle corners{over(square, edge - kScreen * along, lamp), over(square, edge + kScreen * along, lamp),
                                over(square, edge - 2 * kScreen * towards, lamp)};
-    return {Light::kSettled, {lamp, rays.most, {}, {}, corners}, {}};
+    return {Light::kSettled, {lamp, rays.mean * static_cast<float>(count / sum), {}, {}, corners}, {}};
   }
 
   // A place of a square, its sides being 1, on the way from there to the lamp, just over the chart.
