@@ -160,7 +160,7 @@ BakeOptions command_line_defaults() {
   o.radiosity.samples = 0;
   o.radiosity.error = 0.02;
   o.radiosity.fit_texels = true;
-  o.radiosity.detail = kMostDetail;
+  o.radiosity.detail = kMostCellSide;
   o.radiosity.sharp = true;
   return o;
 }

@@ -71,8 +71,7 @@ OptionValue texel_means(BakeOptions& o) {
 }
 
 OptionValue detail_steps(BakeOptions& o) {
-  OptionValue value =
-      choice(o.radiosity.detail, {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", kMostDetail}});
+  OptionValue value = choice(o.radiosity.detail, {{"1", 1}, {"2", 2}, {"4", 4}, {"8", kMostCellSide}});
   value.json = json_of(o.radiosity.detail);
   return value;
 }

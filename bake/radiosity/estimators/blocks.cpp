@@ -17,10 +17,7 @@ class PageBlocks {
     for (const std::uint32_t texel : map.texel) covered_[texel] = true;
     for (std::uint8_t level = 1; level <= kDetailLevels; ++level)
       if (points[level - 1u] != nullptr)
-        grids_[level].emplace(
-            page, levels,
-            LevelGrid::Points{level, *points[level - 1u], level > kWholeLevel ? &*grids_[kWholeLevel] : nullptr},
-            page_number);
+        grids_[level].emplace(page, levels, LevelGrid::Points{level, *points[level - 1u]}, page_number);
   }
 
   void fill() {

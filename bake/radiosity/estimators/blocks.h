@@ -7,8 +7,8 @@
 
 namespace oriel {
 
-inline constexpr int kDetailLevels = 5;
-static_assert(1u << kDetailLevels == kMostDetail);
+inline constexpr int kDetailLevels = 3;
+static_assert(1u << kDetailLevels == kMostCellSide);
 
 // Fills LightmapPage::cell and detail. The light is continuous: on a side shared with a coarser cell, a finer one shows
 // the coarser one's light, and at the centre of a texel whose cells are not all finer, all show the texel. A point

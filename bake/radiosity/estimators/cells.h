@@ -9,20 +9,11 @@ namespace oriel {
 // log2 of the steps along a cell's side, by page and y * width + x as in LightmapPage::cell; 0: texels suffice.
 using CellLevels = std::vector<std::vector<std::uint8_t>>;
 
-// All points of a cell with at most 2^kWholeLevel steps are lit. A cell with more steps has all points of that level,
-// and finer ones where those differ: an edge crosses few of them.
-inline constexpr std::uint8_t kWholeLevel = 3;
-
-// True if a cell has points of a level.
-inline bool has_points(std::uint8_t of_cell, std::uint8_t level) {
-  return level == kWholeLevel ? of_cell >= level : of_cell == level;
-}
-
 struct CellGoal {
   double error = 0;  // allowed relative error of interpolation
   double floor = 0;  // luminance, lux: errors of darker places are relative to it
-  std::uint32_t most_side = kMostDetail;
-  std::uint64_t most_points = 0;  // of all cells; kDirectPoints without a gather count as one
+  std::uint32_t most_side = kMostCellSide;
+  std::uint64_t most_points = 0;  // of all cells
   std::uint8_t lit_level = 0;     // points up to this level are lit already and count as none
 };
 
@@ -43,11 +34,8 @@ struct CellCandidate {
   bool contact = false;      // a corner texel is partly hidden
   bool stays = false;        // it gets no points
   bool unevaluated = false;  // texels cannot give `error`: it is a guess
-  bool gathers = true;       // its points need reflected light, too; else direct light alone
+  bool gathers = true;       // its first points gather reflected light, too; else the texels' suffices
 };
-
-// Points with direct light alone that cost as much as one that gathers: a few dozen rays against a few hundred.
-inline constexpr std::uint64_t kDirectPoints = 8;
 
 // Estimates the interpolation error of all cells. Where light has a second difference D between texels, interpolation
 // is off by about D / 4 at an edge, and n steps between texels leave 1/n of that. Noise is subtracted from D. Narrow

@@ -14,7 +14,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kFewPoints = 1 << 14;  // lower limit on points of a pass
-constexpr std::size_t kPointsATexel = 4;
+constexpr std::size_t kPointsATexel = 8;
 constexpr double kUsualError = 0.02;  // without a requested error
 constexpr double kNegligible = 0.4;   // of the error allowed: points of cells below it are not stored
 
@@ -37,7 +37,7 @@ std::uint32_t most_side(const Atlas& atlas) {
   std::uint64_t largest = 1;
   for (const AtlasPage& page : atlas.pages)
     largest = std::max(largest, (std::uint64_t{page.width} + 2) * (std::uint64_t{page.height} + 2));
-  std::uint32_t side = kMostDetail;
+  std::uint32_t side = kMostCellSide;
   while (side > 1 && largest * side * side > std::uint64_t{1} << 30u) side /= 2;
   return side;
 }
@@ -59,7 +59,6 @@ class DetailMaker {
     CellLevels levels = choose_cells(light_.pages, found, first);
     ORIEL_TRY_VOID(light_cells(levels, 1, 0));
     const std::vector<CellCandidate> predicted = std::exchange(found, measured(levels, found));
-    mark_gathering(found);
     CellGoal further = goal_;
     further.lit_level = 1;
     levels = choose_cells(light_.pages, found, further);
@@ -106,27 +105,14 @@ class DetailMaker {
   }
 
   Status light_cells(const CellLevels& levels, std::uint8_t level, double done) {
-    const auto has = [&](std::uint8_t own) { return has_points(own, level); };
-    if (std::ranges::all_of(levels, [&](const auto& page) { return std::ranges::none_of(page, has); })) return {};
+    const auto lacks = [&](const auto& page) { return std::ranges::find(page, level) == page.end(); };
+    if (std::ranges::all_of(levels, lacks)) return {};
     task_.context.foretell("detail", done);
-    ORIEL_TRY(const DetailPoints points,
-              list_points(task_.atlas, levels, level, points_wanted(levels, level), task_.context));
-    ORIEL_TRY(PointLight lit, light_points(own_, texel_light_, points, gathers_));
+    ORIEL_TRY(const DetailPoints points, list_points(task_.atlas, levels, level, task_.context));
+    const CoarserLight coarser{texel_light_, points_[0].get(), gathers_};
+    ORIEL_TRY(PointLight lit, light_points(own_, coarser, points));
     points_[level - 1u] = std::make_unique<PointLight>(std::move(lit));
     return {};
-  }
-
-  // All points up to kWholeLevel; of finer levels those between points that differ by more than the error allowed.
-  PointFilter points_wanted(const CellLevels& levels, std::uint8_t level) const {
-    if (level <= kWholeLevel) return [](auto...) { return true; };
-    auto whole = std::make_shared<std::vector<LevelGrid>>();
-    for (std::uint32_t p = 0; p < levels.size(); ++p)
-      whole->emplace_back(light_.pages[p], levels[p], LevelGrid::Points{kWholeLevel, *points_[kWholeLevel - 1u]}, p);
-    return [this, whole, level](std::uint32_t p, std::uint32_t place, std::uint32_t i, std::uint32_t j) {
-      const LightmapPage& page = light_.pages[p];
-      const Vec2 within = Vec2(i, j) / static_cast<float>(1u << level);
-      return (*whole)[p].differs_at(page, place % page.width, place / page.width, within, goal_.floor) > goal_.error;
-    };
   }
 
   // The lit candidates, with the error measured by their points.
@@ -138,35 +124,26 @@ class DetailMaker {
       for (CellCandidate cell : found)
         if (cell.page == p && levels[p][cell.place] > 0)
           if (const auto missed = grid.missed(cell.place % width, cell.place / width)) {
-            const CellErrors errors = evaluate_points(p, cell.place);
-            cell.error = std::sqrt(*missed * *missed + errors.uneven) / cell.light * cell.weight;
-            cell.gathers = cell.gathers && errors.reflected_missed / cell.light * cell.weight > goal_.error;
+            cell.error = std::sqrt(*missed * *missed + uneven_in(p, cell.place)) / cell.light * cell.weight;
             measured.push_back(cell);
           }
     }
     return measured;
   }
 
-  // Errors in a cell by its points, luminance. Next to a lamp light varies so much within the points that the filter
-  // takes it for noise.
-  struct CellErrors {
-    double reflected_missed = 0;  // rms difference of reflected light from the texels, beyond noise
-    double uneven = 0;            // mean of PointLight::uneven
-  };
-  CellErrors evaluate_points(std::uint32_t page, std::uint32_t place) const {
+  // The mean of PointLight::uneven over a cell's points. Next to a lamp light varies so much within the points that the
+  // filter takes it for noise.
+  double uneven_in(std::uint32_t page, std::uint32_t place) const {
     const PointLight& lit = *points_[0];
     const std::uint32_t width = light_.pages[page].width;
-    double squares = 0, uneven = 0, count = 0;
+    double uneven = 0, count = 0;
     for (std::uint32_t j = 0; j <= 2; ++j)
       for (std::uint32_t i = 0; i <= 2; ++i) {
         const std::uint32_t point = lit.texels.at(page, static_cast<int>(DetailPoints::fine(place % width, i, 2)),
                                                   static_cast<int>(DetailPoints::fine(place / width, j, 2)));
-        if (point == kNoTexel || lit.texels.visible[point] == 0) continue;
-        squares += std::pow(double{lit.reflected_change[point]}, 2) - double{lit.reflected_noise[point]}, ++count;
-        uneven += double{lit.uneven[point]};
+        if (point != kNoTexel && lit.texels.visible[point] > 0) uneven += double{lit.uneven[point]}, ++count;
       }
-    count = std::max(1.0, count);
-    return {std::sqrt(std::max(0.0, squares) / count), uneven / count};
+    return uneven / std::max(1.0, count);
   }
 
   // The remaining error of interpolation, rms over frame pixels. At an edge each further level halves the area in

@@ -17,7 +17,7 @@ LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& 
                      std::uint32_t page_number)
     : side_(1u << points.level), width_((page.width + 2) * side_) {
   for (std::uint32_t place = 0; place < levels.size(); ++place) {
-    if (!has_points(levels[place], points.level)) continue;
+    if (levels[place] != points.level) continue;
     for (std::uint32_t j = 0; j <= side_; ++j)
       for (std::uint32_t i = 0; i <= side_; ++i) place_.push_back(number(place % page.width, place / page.width, i, j));
   }
@@ -33,10 +33,6 @@ LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& 
     own_[k] = 1;
   }
   has_value_ = own_;
-  if (points.whole != nullptr)
-    fill_from(*points.whole, page, levels, [&](std::uint32_t x, std::uint32_t y) {
-      return points.light.texels.at(page_number, static_cast<int>(x), static_cast<int>(y)) != kNoTexel;
-    });
   remove_noise();
   remove_outliers();
   for (std::uint32_t pass = 0; pass <= side_ && spread(); ++pass) {
@@ -70,44 +66,6 @@ std::optional<LevelGrid::Missed> LevelGrid::missed_at(std::uint32_t x, std::uint
     }
   missed.square = std::pow(double{luminance(change)}, 2);
   return missed;
-}
-
-double LevelGrid::differs_at(const LightmapPage& page, std::uint32_t x, std::uint32_t y, const Vec2& within,
-                             double floor) const {
-  const Vec2 at = within * static_cast<float>(side_);
-  const auto low = UVec2(glm::max(glm::ceil(at) - 1.0f, Vec2(0))),
-             high = UVec2(glm::min(glm::floor(at) + 1.0f, Vec2(side_)));
-  double least = std::numeric_limits<double>::max(), most = 0;
-  for (std::uint32_t j = low.y; j <= high.y; ++j)
-    for (std::uint32_t i = low.x; i <= high.x; ++i) {
-      const Vec3 texels = between_texels(page, DetailPoints::fine(x, i, side_), DetailPoints::fine(y, j, side_));
-      const double light = luminance(texels + this->at(x, y, i, j));
-      least = std::min(least, light), most = std::max(most, light);
-    }
-  return (most - least) / (most + floor + 1e-30);
-}
-
-Vec3 LevelGrid::between(std::uint32_t x, std::uint32_t y, const Vec2& within) const {
-  const Vec2 at = within * static_cast<float>(side_);
-  const auto i = glm::min(UVec2(at), UVec2(side_ - 1));
-  const Vec2 f = at - Vec2(i);
-  return glm::mix(glm::mix(this->at(x, y, i.x, i.y), this->at(x, y, i.x + 1, i.y), f.x),
-                  glm::mix(this->at(x, y, i.x, i.y + 1), this->at(x, y, i.x + 1, i.y + 1), f.x), f.y);
-}
-
-// Fills points that were not lit from the coarser whole grid, whose points around them hardly differ.
-void LevelGrid::fill_from(const LevelGrid& whole, const LightmapPage& page, const std::vector<std::uint8_t>& levels,
-                          const std::function<bool(std::uint32_t x, std::uint32_t y)>& is_lit) {
-  for (std::uint32_t place = 0; place < levels.size(); ++place) {
-    if (1u << levels[place] != side_) continue;
-    const std::uint32_t x = place % page.width, y = place / page.width;
-    for (std::uint32_t j = 0; j <= side_; ++j)
-      for (std::uint32_t i = 0; i <= side_; ++i) {
-        const std::size_t k = find(number(x, y, i, j));
-        if (has_value_[k] || is_lit(DetailPoints::fine(x, i, side_), DetailPoints::fine(y, j, side_))) continue;
-        change_[k] = whole.between(x, y, Vec2(i, j) / static_cast<float>(side_)), has_value_[k] = 1;
-      }
-  }
 }
 
 std::size_t LevelGrid::find(std::uint32_t place) const {

@@ -1,7 +1,6 @@
 // The difference of finer cells' points, of one level, from the interpolation of a page's texels.
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "bake/radiosity/estimators/point_light.h"
@@ -10,11 +9,10 @@ namespace oriel {
 
 class LevelGrid {
  public:
-  // The points of one level. whole: the grid of kWholeLevel, for a higher level. It fills in points that `light` lacks.
+  // The points of one level.
   struct Points {
     std::uint8_t level;
     const PointLight& light;
-    const LevelGrid* whole = nullptr;
   };
 
   // levels: by place of the page; the grid holds the cells with points of that level. Noise is removed from the
@@ -36,9 +34,6 @@ class LevelGrid {
   };
   // The same at a position in it, [0,1]²; nothing where a surrounding point is not of this level.
   std::optional<Missed> missed_at(std::uint32_t x, std::uint32_t y, const Vec2& within) const;
-  // The range of luminance among the four points around a position in a cell, [0,1]², over the largest of them and
-  // `floor`, lux.
-  double differs_at(const LightmapPage& page, std::uint32_t x, std::uint32_t y, const Vec2& within, double floor) const;
   std::uint32_t side() const { return side_; }
 
  private:
@@ -47,9 +42,6 @@ class LevelGrid {
   }
   std::size_t find(std::uint32_t place) const;
   Vec3 between_texels(const LightmapPage& page, std::uint32_t x, std::uint32_t y) const;
-  Vec3 between(std::uint32_t x, std::uint32_t y, const Vec2& within) const;
-  void fill_from(const LevelGrid& whole, const LightmapPage& page, const std::vector<std::uint8_t>& levels,
-                 const std::function<bool(std::uint32_t x, std::uint32_t y)>& is_lit);
   void remove_noise();
   void remove_outliers();
   bool spread();

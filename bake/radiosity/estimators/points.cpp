@@ -4,8 +4,7 @@
 
 namespace oriel {
 
-Result<DetailPoints> list_points(const Atlas& atlas, const CellLevels& levels, std::uint8_t level,
-                                 const PointFilter& wants, Context& context) {
+Result<DetailPoints> list_points(const Atlas& atlas, const CellLevels& levels, std::uint8_t level, Context& context) {
   DetailPoints points;
   points.side = 1u << level;
   points.atlas = atlas;
@@ -15,16 +14,14 @@ Result<DetailPoints> list_points(const Atlas& atlas, const CellLevels& levels, s
     const AtlasPage& page = atlas.pages[p];
     AtlasPage& fine = points.atlas.pages[p];
     fine.width = (page.width + 2) * points.side, fine.height = (page.height + 2) * points.side;
-    if (std::ranges::none_of(levels[p], [&](std::uint8_t own) { return has_points(own, level); })) continue;
+    if (std::ranges::find(levels[p], level) == levels[p].end()) continue;
     wanted[p].resize(std::size_t{fine.width} * fine.height);
     for (std::uint32_t place = 0; place < levels[p].size(); ++place) {
-      if (!has_points(levels[p][place], level)) continue;
+      if (levels[p][place] != level) continue;
       const std::uint32_t x = DetailPoints::fine(place % page.width, 0, points.side);
       const std::uint32_t y = DetailPoints::fine(place / page.width, 0, points.side);
       for (std::uint32_t j = 0; j <= points.side; ++j)
-        for (std::uint32_t i = 0; i <= points.side; ++i)
-          if (wants(static_cast<std::uint32_t>(p), place, i, j))
-            wanted[p][std::size_t{y + j} * fine.width + x + i] = true;
+        for (std::uint32_t i = 0; i <= points.side; ++i) wanted[p][std::size_t{y + j} * fine.width + x + i] = true;
     }
   }
   for (std::size_t t = 0; t < atlas.page.size(); ++t) {

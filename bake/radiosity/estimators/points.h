@@ -1,8 +1,6 @@
 // The points of finer cells as texels of a finer atlas, so that the estimators of texels apply to them.
 #pragma once
 
-#include <functional>
-
 #include "bake/atlas/texel_map.h"
 #include "bake/radiosity/estimators/cells.h"
 
@@ -20,11 +18,7 @@ struct DetailPoints {
   }
 };
 
-// True if point (i, j) of the cell at a place of a page is wanted.
-using PointFilter = std::function<bool(std::uint32_t page, std::uint32_t place, std::uint32_t i, std::uint32_t j)>;
-
-// Lists the wanted points of one level. Error kStopped.
-Result<DetailPoints> list_points(const Atlas& atlas, const CellLevels& levels, std::uint8_t level,
-                                 const PointFilter& wants, Context& context);
+// Lists the points of one level. Error kStopped.
+Result<DetailPoints> list_points(const Atlas& atlas, const CellLevels& levels, std::uint8_t level, Context& context);
 
 }  // namespace oriel

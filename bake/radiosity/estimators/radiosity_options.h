@@ -24,6 +24,9 @@ inline constexpr int kRefinements = 2;  // at most, after verification
 // texels may have kMostTexelMean rays a texel instead.
 inline constexpr std::uint64_t kDefaultMostRays = 32 << 20, kMostTexelMean = 256;
 
+// Steps along a side of a finer cell. 16 and 32 bring frames nothing for a tenth of the time.
+inline constexpr std::uint32_t kMostCellSide = 8;
+
 enum class Estimator : std::uint8_t {
   kReference,  // unbiased paths from every texel
   kCached,     // bounces cached in the lightmap, one final gather, filtered
@@ -70,7 +73,7 @@ struct RadiosityOptions {
   int dilation = 4;          // texels by which charts are extended beyond their border
   bool fit_texels = false;   // deconvolve values for bilinear interpolation (texels/fit_texels.h)
   std::uint32_t detail = 1;  // cached: cells between texels are divided into up to so many steps a side (a power of 2
-                             // up to 32) where light changes within them (cells.h)
+                             // up to 8) where light changes within them (cells.h)
   bool stitch = true;        // make light continuous over the seams of the lightmap
   bool directional = false;  // fill LightmapPage::direction
   bool sharp = false;        // cached: light of points, spots and suns on flat charts is computed by pixel

@@ -33,7 +33,7 @@ inline RadiosityOptions cached_options(double error) {
   options.samples = 4096;
   options.error = error;
   options.fit_texels = true;
-  options.detail = kMostDetail;
+  options.detail = kMostCellSide;
   options.verify = 0;
   return options;
 }

@@ -54,7 +54,7 @@ TEST(WithinTime, ManyInstancesAndLampsAre) {
   BakeOptions options;
   options.scene = folder.write("rings.gltf", thousand_rings().text());
   options.atlas.texel_m = 0.05f;
-  options.radiosity = {.estimator = Estimator::kCached, .samples = 4096, .error = 0.2, .detail = kMostDetail};
+  options.radiosity = {.estimator = Estimator::kCached, .samples = 4096, .error = 0.2, .detail = kMostCellSide};
   options.time_s = 2;
   Context context;
   context.threads = 1;

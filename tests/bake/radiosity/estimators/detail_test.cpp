@@ -59,7 +59,7 @@ TEST(DetailCells, AreChosenAlongEdgesAndNotOnSlopes) {
   const auto edge = lit(
       floor, [](float x, float) { return x < 16 ? 100.0f : 400.0f; }, 0);
   const CellLevels levels = chosen(floor, edge, goal);
-  EXPECT_GT(count(levels, 3) + count(levels, 4), 60) << "two rows of thirty cells and more beside the edge";
+  EXPECT_GT(count(levels, 3), 60) << "two rows of thirty cells and more beside the edge";
   for (std::uint32_t place = 0; place < levels[0].size(); ++place)
     if (levels[0][place] > 0) {
       EXPECT_NEAR(static_cast<double>(place % edge.width), 15, 2.01);
@@ -71,7 +71,7 @@ TEST(DetailCells, AreChosenAlongEdgesAndNotOnSlopes) {
 
 TEST(DetailCells, AlongAnEdgeHaveAsManySteps) {
   const Listed floor(bare_floor(), 0.1f);
-  const CellGoal goal{.error = 0.02, .floor = 1, .most_points = 1 << 20};
+  const CellGoal goal{.error = 0.04, .floor = 1, .most_points = 1 << 20};
   const auto edge = lit(
       floor, [](float x, float y) { return x < 16                   ? 100.0f
                                            : std::fmod(y, 8.0f) < 4 ? 132.0f
@@ -123,19 +123,6 @@ TEST(DetailCells, GatherWhereReflectedLightBends) {
   EXPECT_TRUE(std::ranges::all_of(on_an_edge(floor, slope, true), gathers)) << "texels do not tell at contacts";
 }
 
-TEST(DetailCells, OfDirectLightAloneCostLess) {
-  const Listed floor(bare_floor(), 0.1f);
-  std::vector<CellCandidate> found = on_an_edge(
-      floor, [](float) { return 50.0f; }, false);
-  Radiosity light;
-  light.pages.push_back(lit(
-      floor, [](float, float) { return 100.0f; }, 0));
-  const CellGoal goal{.error = 0.02, .floor = 10, .most_points = 1000};
-  EXPECT_GT(count(choose_cells(light.pages, found, goal), 3), 20) << "finest all along the edge";
-  for (CellCandidate& cell : found) cell.gathers = true;
-  EXPECT_EQ(count(choose_cells(light.pages, found, goal), 3), 0) << "for as many points as gather there is no room";
-}
-
 TEST(DetailCells, LeaveStitchedSeamsAsTheyAre) {
   const Listed floor(bare_floor(), 0.1f);
   const auto edge = lit(
@@ -154,8 +141,7 @@ TEST(DetailCells, LeaveStitchedSeamsAsTheyAre) {
 // Points of a level whose light is anything, so that only joining makes it continuous.
 PointLight any_light(const Listed& floor, const CellLevels& levels, std::uint8_t level) {
   Context context;
-  const DetailPoints points = *list_points(
-      floor.atlas, levels, level, [](auto...) { return true; }, context);
+  const DetailPoints points = *list_points(floor.atlas, levels, level, context);
   PointLight lit;
   lit.texels = *list_texels({floor.transport(), points.atlas, points.map}, context);
   lit.variance.resize(lit.texels.count());
@@ -256,7 +242,7 @@ TEST(Detail, ShowsTheEdgeOfTheSunsShadow) {
   parts.scene().lights.push_back(sun);
   Listed floor(parts.finish(), 0.2f);
   RadiosityOptions options{.estimator = Estimator::kCached, .samples = 1024, .error = 0.02, .fit_texels = true};
-  options.verify = 0, options.detail = kMostDetail;
+  options.verify = 0, options.detail = kMostCellSide;
   const Radiosity light = *bake_radiosity({floor.transport(), floor.atlas, floor.map}, options, floor.context);
   ASSERT_GT(light.report.detail.points, 1000);
   const auto shown = [&](float x) {
@@ -266,7 +252,7 @@ TEST(Detail, ShowsTheEdgeOfTheSunsShadow) {
                          uv[0] + hit.barycentric.x * (uv[1] - uv[0]) + hit.barycentric.y * (uv[2] - uv[0]))
         .g;
   };
-  EXPECT_NEAR(shown(2.05f) - shown(2.01f), 1000, 30) << "within a tenth of a texel on each side of the edge";
+  EXPECT_NEAR(shown(2.06f) - shown(2.0f), 1000, 30) << "within a step of 2.5 cm on each side of the edge";
 }
 
 // A strip of light 3 cm before a wall, half as far below a ceiling: light on that varies a hundredfold within a point
@@ -279,7 +265,7 @@ TEST(Detail, HasNoGapsBesideAStrip) {
   parts.quad("strip", parts.diffuse(Vec3(0), Vec3(12000)), {0.2f, 2.85f, 0.031f}, {19.6f, 0, 0}, {0, 0.03f, 0});
   Listed room(parts.finish(), 0.108f);
   RadiosityOptions options{.estimator = Estimator::kCached, .samples = 64, .error = 0.02, .fit_texels = true};
-  options.verify = 0, options.detail = kMostDetail;
+  options.verify = 0, options.detail = kMostCellSide;
   const Radiosity light = *bake_radiosity({room.transport(), room.atlas, room.map}, options, room.context);
   const auto shown = [&](float x, float z) {
     const Hit hit = room.accel->intersect({{x, 2.89f, z}, {0, 1, 0}, 1});
@@ -301,10 +287,10 @@ TEST(Detail, BringsShadowsNearerToTheTruth) {
     return *bake_radiosity({floor.transport(), floor.atlas, floor.map}, options, floor.context);
   };
   const double texels = profile_error(floor, bake());
-  options.detail = kMostDetail;
+  options.detail = kMostCellSide;
   const Radiosity fine = bake();
   EXPECT_GT(fine.report.detail.cells, 10);
-  EXPECT_LT(fine.report.detail.points, 8 * (1 << 14)) << "as many as gather, an eighth of one each";
+  EXPECT_LT(fine.report.detail.points, 2 * (1 << 14)) << "first ones and further ones";
   const double cells = profile_error(floor, fine);
   EXPECT_LT(cells, 0.4 * texels) << cells << " and " << texels << " lux";
   floor.context.threads = 1;
