@@ -51,17 +51,17 @@ std::vector<float> diffusion_steps(float time) {
   return steps;
 }
 
-Flow further_flow(const Conductor& over, std::vector<Vec3> values, float time, Context& context) {
+Flow further_flow(const Conductor& over, std::vector<BothHalves> values, float time, Context& context) {
   const TexelGraph& graph = over.graph;
   const Conductance& conductance = over.conductance;
   const std::size_t n = values.size();
-  std::vector<Vec3> next(n), sum(n, Vec3(0));
+  std::vector<BothHalves> next(n), sum(n, BothHalves(0));
   // Conductances are constant in time: an edge's flow is that of the values summed over steps.
   const std::vector<float> steps = diffusion_steps(time);
   for (const float sign : {1.0f, -1.0f})
     for (const float step : steps) {
       each_texel(context, n, [&](std::size_t i) {
-        Vec3 gain(0);
+        BothHalves gain(0);
         const auto own = graph.of(i);
         for (std::size_t k = 0; k < own.size(); ++k) gain += conductance[i][k] * (values[own[k]] - values[i]);
         sum[i] += sign * step * values[i];

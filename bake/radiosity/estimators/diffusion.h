@@ -74,38 +74,36 @@ std::vector<V> diffuse(const Conductor& over, std::vector<V> values, float time,
   return values;
 }
 
+// Light by half of the estimate: one walk over the graph serves both.
+using BothHalves = glm::mat<kHalves, 3, float>;
+
 // The flow along each edge into its first texel, in the order of TexelGraph::of(). Times the texel's area it is the
 // other texel's loss.
-using Flow = std::vector<std::array<Vec3, kMaxNeighbours>>;
+using Flow = std::vector<std::array<BothHalves, kMaxNeighbours>>;
 
 // The flow that smooths `values` over `time`, with the filter's bias corrected by twicing (Tukey 1977): diffusion for
 // the same time once more repeats the bias, so that second flow is subtracted. Quadratic light is left unchanged, and
 // linear light also at the end of a surface.
-Flow further_flow(const Conductor& over, std::vector<Vec3> values, float time, Context& context);
+Flow further_flow(const Conductor& over, std::vector<BothHalves> values, float time, Context& context);
 
 // Averages a quantity over each texel's neighbourhood, `passes` wide. The sum over texels stays, so that errors at rims
-// and in corners, where the filter's bias is largest, keep their weight. share(i, j): true if the two texels exchange
-// the quantity.
-template <class V, class Share>
-std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, const Share& share,
-                      Context& context) {
-  std::vector<V> next(values.size());
+// and in corners, where the filter's bias is largest, keep their weight. part: by texel, those that exchange the
+// quantity; null: all.
+template <class V>
+std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, Context& context,
+                      const std::vector<char>* part = nullptr) {
+  std::vector<V> next(values);
   for (int pass = 0; pass < passes; ++pass) {
     each_texel(context, values.size(), [&](std::size_t i) {
+      if (part && !(*part)[i]) return;
       V gain(0);
       for (const std::uint32_t j : graph.of(i))
-        if (share(i, j)) gain += values[j] - values[i];
+        if (!part || (*part)[j]) gain += values[j] - values[i];
       next[i] = values[i] + gain / static_cast<float>(kMaxNeighbours + 1);
     });
     values.swap(next);
   }
   return values;
-}
-
-template <class V>
-std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, Context& context) {
-  return pooled(
-      graph, std::move(values), passes, [](std::size_t, std::size_t) { return true; }, context);
 }
 
 }  // namespace oriel

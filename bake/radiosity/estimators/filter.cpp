@@ -44,11 +44,11 @@ std::vector<float> relative_to(const Texels& texels, const std::vector<Vec3>& li
 // Per texel, [0,1]: the fraction of the change Δ by further smoothing that minimises the error (Wiener 1949). <> is a
 // mean over the neighbourhood. The common change of both halves, <Δ_0 Δ_1>, is signal; their different change, <(Δ_0 -
 // Δ_1)²> / 4, is noise removed from the mean of both. The optimum is the second over the sum.
-std::vector<float> wanted(const Conductor& over, const TwoHalves& change, const std::vector<float>& weight, float time,
-                          Context& context) {
+std::vector<float> wanted(const Conductor& over, const std::vector<BothHalves>& change,
+                          const std::vector<float>& weight, float time, Context& context) {
   std::vector<Vec2> sums(weight.size());
   each_texel(context, sums.size(), [&](std::size_t i) {
-    const Vec3 &a = change[0][i], &b = change[1][i];
+    const Vec3 &a = change[i][0], &b = change[i][1];
     sums[i] = weight[i] * Vec2(0.25f * glm::dot(a - b, a - b), glm::dot(a, b));
   });
   const std::vector<Vec2> near = diffuse(over, sums, kNarrow, context);
@@ -63,8 +63,9 @@ std::vector<float> wanted(const Conductor& over, const TwoHalves& change, const 
 }
 
 // The flow into each texel: an edge's flow times the smaller `share` of its two texels, which conserves light.
-std::vector<Vec3> gain(const Flow& flow, const TexelGraph& graph, const std::vector<float>& share, Context& context) {
-  std::vector<Vec3> sum(share.size());
+std::vector<BothHalves> gain(const Flow& flow, const TexelGraph& graph, const std::vector<float>& share,
+                             Context& context) {
+  std::vector<BothHalves> sum(share.size(), BothHalves(0));
   each_texel(context, share.size(), [&](std::size_t i) {
     const auto own = graph.of(i);
     for (std::size_t k = 0; k < own.size(); ++k) sum[i] += std::min(share[i], share[own[k]]) * flow[i][k];
@@ -76,20 +77,17 @@ std::vector<Vec3> gain(const Flow& flow, const TexelGraph& graph, const std::vec
 void smooth_by_scales(const Conductor& over, const std::vector<float>& weight, int scales, TwoHalves& halves,
                       Context& context) {
   const std::vector<float> all(weight.size(), 1.0f);
+  std::vector<BothHalves> light(weight.size());
+  for (std::size_t i = 0; i < light.size(); ++i) light[i] = BothHalves(halves[0][i], halves[1][i]);
   float time = kFirstScale;
   for (int scale = 0; scale < scales; ++scale, time *= kNextScale) {
-    const std::array<Flow, kHalves> flow{further_flow(over, halves[0], time, context),
-                                         further_flow(over, halves[1], time, context)};
+    const Flow flow = further_flow(over, light, time, context);
     std::vector<float> share = all;
-    if (scale > 0) {
-      const TwoHalves change{gain(flow[0], over.graph, all, context), gain(flow[1], over.graph, all, context)};
-      share = wanted(over, change, weight, time, context);
-    }
-    for (int h = 0; h < kHalves; ++h) {
-      const std::vector<Vec3> change = gain(flow[h], over.graph, share, context);
-      for (std::size_t i = 0; i < change.size(); ++i) halves[h][i] += change[i];
-    }
+    if (scale > 0) share = wanted(over, gain(flow, over.graph, all, context), weight, time, context);
+    const std::vector<BothHalves> change = gain(flow, over.graph, share, context);
+    for (std::size_t i = 0; i < change.size(); ++i) light[i] += change[i];
   }
+  for (std::size_t i = 0; i < light.size(); ++i) halves[0][i] = light[i][0], halves[1][i] = light[i][1];
 }
 
 // The deviation of a texel's light from its neighbourhood, so that a slope is no edge, however steep. With the light
@@ -167,18 +165,15 @@ std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, s
   const Vec3 floor = Vec3(mean / std::max(1.0, seen)) * 0.01f;
   const auto scale = [&](std::size_t i) { return light[i] * light[i] + floor * floor + Vec3(1e-30f); };
   each_texel(context, squares.size(), [&](std::size_t i) { squares[i] /= scale(i); });
-  const auto spread = [&](const auto& share) {
-    std::vector<Vec3> near = pooled(graph, squares, kPoolPasses, share, context);
-    const std::vector<Vec3> wide = pooled(graph, near, kWidePasses - kPoolPasses, share, context);
+  const auto spread = [&](const std::vector<char>* part) {
+    std::vector<Vec3> near = pooled(graph, squares, kPoolPasses, context, part);
+    const std::vector<Vec3> wide = pooled(graph, near, kWidePasses - kPoolPasses, context, part);
     for (std::size_t i = 0; i < near.size(); ++i) near[i] = 0.5f * (near[i] + wide[i]);
     return near;
   };
-  const auto both_occluded = [&](std::size_t i, std::size_t j) {
-    return texels.occlusion_heavy[i] && texels.occlusion_heavy[j];
-  };
-  std::vector<Vec3> of_all = spread([](std::size_t, std::size_t) { return true; });
+  const std::vector<Vec3> of_all = spread(nullptr);
   // Paths start from hits close to an occluder, with more noise than elsewhere.
-  const std::vector<Vec3> of_occluded = spread(both_occluded);
+  const std::vector<Vec3> of_occluded = spread(&texels.occlusion_heavy);
   for (std::size_t i = 0; i < squares.size(); ++i)
     squares[i] = texels.occlusion_heavy[i] ? glm::max(of_all[i], of_occluded[i]) : of_all[i];
   each_texel(context, squares.size(), [&](std::size_t i) { squares[i] *= scale(i); });
@@ -210,7 +205,9 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
   std::vector<Vec3> guide = pooled(graph, mean, 1, context);
   std::vector<Vec3> raw_variance = pool(noise, mean);
   noise = pool(std::move(noise), guide);
-  const std::vector<Vec3> left = pool(halves.common, guide);
+  std::vector<Vec3> left = halves.common;
+  if (!std::ranges::all_of(left, [](const Vec3& square) { return square == Vec3(0); }))
+    left = pool(std::move(left), guide);
 
   Estimate result;
   if (options.strength <= 0 || options.scales <= 0) {
