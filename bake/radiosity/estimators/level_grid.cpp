@@ -23,6 +23,7 @@ LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& 
   }
   std::sort(place_.begin(), place_.end());
   place_.erase(std::unique(place_.begin(), place_.end()), place_.end());
+  find_neighbours();
   change_.resize(place_.size()), noise_.resize(place_.size()), own_.resize(place_.size());
   for (std::size_t k = 0; k < place_.size(); ++k) {
     const std::uint32_t x = place_[k] % width_, y = place_[k] / width_;
@@ -73,6 +74,21 @@ std::size_t LevelGrid::find(std::uint32_t place) const {
   return found != place_.end() && *found == place ? static_cast<std::size_t>(found - place_.begin()) : place_.size();
 }
 
+// Places ascend along each of three rows at a time.
+void LevelGrid::find_neighbours() {
+  const auto none = static_cast<std::uint32_t>(place_.size());
+  around_.resize(place_.size());
+  std::array<std::uint32_t, 3> next{};
+  for (std::size_t k = 0; k < place_.size(); ++k)
+    for (std::uint32_t row = 0; row < 3; ++row) {
+      const std::int64_t first = std::int64_t{place_[k]} + (std::int64_t{row} - 1) * width_ - 1;
+      while (next[row] < none && place_[next[row]] < first) ++next[row];
+      std::uint32_t found = next[row];
+      for (std::uint32_t column = 0; column < 3; ++column)
+        around_[k][row * 3 + column] = found < none && place_[found] == first + column ? found++ : none;
+    }
+}
+
 Vec3 LevelGrid::between_texels(const LightmapPage& page, std::uint32_t x, std::uint32_t y) const {
   const Vec2 texel = Vec2(x, y) / static_cast<float>(side_) - 1.0f;
   return irradiance_at(page, (texel + 0.5f) / Vec2(page.width, page.height));  // without cells as yet
@@ -110,11 +126,8 @@ void LevelGrid::remove_outliers() {
 // Visits the points with a value among the nine around one.
 template <class Body>
 void LevelGrid::for_each_neighbour(std::size_t k, const Body& body) const {
-  for (const int dy : {-1, 0, 1})
-    for (const int dx : {-1, 0, 1}) {
-      const std::size_t other = find(place_[k] + static_cast<std::uint32_t>(dy * static_cast<int>(width_) + dx));
-      if (other < place_.size() && has_value_[other]) body(other);
-    }
+  for (const std::uint32_t other : around_[k])
+    if (other < place_.size() && has_value_[other]) body(other);
 }
 
 // Extrapolates to points without a value from their neighbours. False if none got one.

@@ -1,6 +1,7 @@
 // The difference of finer cells' points, of one level, from the interpolation of a page's texels.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "bake/radiosity/estimators/point_light.h"
@@ -41,6 +42,7 @@ class LevelGrid {
     return DetailPoints::fine(y, j, side_) * width_ + DetailPoints::fine(x, i, side_);
   }
   std::size_t find(std::uint32_t place) const;
+  void find_neighbours();
   Vec3 between_texels(const LightmapPage& page, std::uint32_t x, std::uint32_t y) const;
   void remove_noise();
   void remove_outliers();
@@ -49,7 +51,8 @@ class LevelGrid {
   void for_each_neighbour(std::size_t k, const Body& body) const;
 
   std::uint32_t side_, width_;
-  std::vector<std::uint32_t> place_;  // ascending
+  std::vector<std::uint32_t> place_;                  // ascending
+  std::vector<std::array<std::uint32_t, 9>> around_;  // by point: itself and its neighbours; the number of points: none
   std::vector<Vec3> change_;
   std::vector<float> noise_;           // variance of it, luminance
   std::vector<char> own_, has_value_;  // by point: 1 with light of its own; 1 with any light
