@@ -13,7 +13,6 @@ ToolCommand submit_command(BakeSession& session);
 ToolCommand cache_command(BakeSession& session);
 ToolCommand lux_command(BakeSession& session);
 ToolCommand render_command(BakeSession& session);
-ToolCommand replay_command(BakeSession& session);
 ToolCommand preview_command(BakeSession& session);
 ToolCommand trade_command(BakeSession& session);
 ToolCommand material_command(BakeSession& session);

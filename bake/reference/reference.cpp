@@ -25,15 +25,11 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
     return light;
   }
   SurfacePoint surface = surface_at(t.accel, hit, ray.direction);
-  const auto begin = [&](const char* what) {
-    if (t.listener) t.listener->begin(what), t.listener->meet(surface, Vec3(1));
-  };
   if (t.accel.scene().material_of(hit.triangle).unlit) {
     light.emission = t.options.unlit_white * surface.shade.base_color;
     return light;
   }
   if (surface.shade.inside) {  // the eye is in glass
-    begin("radiance within glass, cd/m2");
     const PathLight within = trace_path(t, ray, 0, sampler, rays);
     light.emission = within.emitted + within.sky + within.scattered;
     return light;
@@ -44,26 +40,20 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
   const Vec3 through = bends ? Vec3(1 - coverage) : straight_transmittance(surface.shade, cos_o);
   if (max_component(through) > 0) {
     const Ray rest{spawn_origin(t.accel.scene(), hit.triangle, hit.barycentric, ray.direction), ray.direction};
-    begin("radiance behind, cd/m2");
     const PathLight behind = trace_path(t, rest, 0, sampler, rays);
     light.emission += through * (behind.emitted + behind.sky + behind.scattered);
   }
-  if (bends) {
-    begin("radiance refracted, cd/m2");
-    light.emission += coverage * refracted_light(t, surface, -ray.direction, sampler, rays);
-  }
+  if (bends) light.emission += coverage * refracted_light(t, surface, -ray.direction, sampler, rays);
   if (surface.emits) light.emission += coverage * surface.shade.emission;
   if (!surface.reflects) return light;
   const float left = 1 - max_component(reflectance(surface.shade, cos_o));
   if (max_component(surface.shade.diffuse) > 0) {
-    begin("irradiance for the diffuse lobe, lux");
     const IrradianceSample e = sample_irradiance(t, surface, sampler, rays);
     const Vec3 shown = coverage * left / kPi * surface.shade.diffuse;
     light.direct = shown * e.direct;
     light.indirect = shown * e.indirect;
   }
   surface.shade.diffuse = surface.shade.transmission = Vec3(0);
-  begin("radiance by the specular lobe, cd/m2");
   light.specular = coverage * reflected_light(t, surface, -ray.direction, sampler, rays);
   return light;
 }
@@ -135,7 +125,6 @@ Transport for_eyes(const Transport& t, const Camera& camera, ReferenceOptions op
   const auto is_unlit = [](const SceneMaterial& m) { return m.unlit; };
   const std::vector<SceneMaterial>& materials = t.accel.scene().materials;
   if (out.options.unlit_white > 0 || std::none_of(materials.begin(), materials.end(), is_unlit)) return out;
-  out.listener = nullptr;
   options.width = std::max(1, kRows * options.width / options.height);
   options.height = kRows;
   options.antialias = false;  // a pixel is lit or it is not
@@ -146,7 +135,6 @@ Transport for_eyes(const Transport& t, const Camera& camera, ReferenceOptions op
       sum += DVec3(sample_pixel(out, camera, options, {seed, i % lit.width, i / lit.width, k}, rays).total());
     push(lit, sum / double{kPaths});
   }
-  out.listener = t.listener;
   out.options.unlit_white = white_of(lit);
   return out;
 }

@@ -67,12 +67,10 @@ class PathTracer {
         const Vec3 sky = throughput_ * sky_radiance(t_.accel.scene(), ray.direction) * weight;
         (first ? light.sky : light.scattered) += sky;
         record(t_, first ? PathGroups::kSky : PathGroups::kScattered, sky_owner(t_.accel.scene()), ray.direction, sky);
-        if (t_.listener) t_.listener->add("sky", sky);
         break;
       }
       SurfacePoint surface = surface_at(t_.accel, hit, ray.direction);
       throughput_ *= medium_.passed(t_.accel.scene(), hit);
-      if (t_.listener) t_.listener->meet(surface, throughput_);
       if (eyes_ && t_.options.unlit_white > 0 && t_.accel.scene().material_of(hit.triangle).unlit) {
         light.scattered += throughput_ * t_.options.unlit_white * surface.shade.base_color;
         break;
@@ -94,7 +92,6 @@ class PathTracer {
                           : lamp ? PathGroups::kLamps
                                  : PathGroups::kScattered,
                           t_.accel.scene().light_group(hit.triangle), emission);
-        if (t_.listener) t_.listener->add("emission", emission);
       }
       if (!surface.reflects) {
         light.back_face = first && passes == 0;
@@ -160,7 +157,6 @@ class PathTracer {
     (mirrored_ && from.lamp ? light.lamps : light.scattered) += throughput_ * from.light;
     record(t_, mirrored_ && from.lamp ? PathGroups::kLamps : PathGroups::kScattered, from.group, from.direction,
            throughput_ * from.light);
-    if (t_.listener) t_.listener->add("lamps", throughput_ * from.light);
     add_mirrored(surface, shading, bounce, light);
     const float u = sampler_.next1();
     const auto sample = shading.sample(u, sampler_.next2());
@@ -189,7 +185,6 @@ class PathTracer {
   Vec3 glow(const SurfacePoint& pane, const Shading& shading) {
     if (std::exchange(spread_, true)) return Vec3(0);
     const Vec3 light = throughput_ * sample_behind({t_, sampler_, rays_}, pane, shading);
-    if (t_.listener) t_.listener->add("frosted lamps", light);
     return light;
   }
 
@@ -205,14 +200,12 @@ class PathTracer {
         [&](const Vec3&, std::uint32_t group, const Vec3& from) {
           light.scattered += throughput_ * from;
           if (t_.grouped) t_.grouped->add(PathGroups::kScattered, group, throughput_ * from);
-          if (t_.listener) t_.listener->add("mirrored lamps", throughput_ * from);
         });
     sample_frosted(
         {t_, sampler_, rays_}, surface, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
         [&](const Vec3&, std::uint32_t group, const Vec3& from) {
           light.scattered += throughput_ * from;
           if (t_.grouped) t_.grouped->add(PathGroups::kScattered, group, throughput_ * from);
-          if (t_.listener) t_.listener->add("frosted lamps", throughput_ * from);
         });
   }
 
@@ -248,20 +241,17 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
   const FromEmitter from = sample_lights_bsdf(by, surface, shading);
   (on_diffuse && from.lamp ? light.lamps : light.scattered) += from.light;
   record(t, from.lamp ? PathGroups::kLamps : PathGroups::kScattered, from.group, from.direction, from.light);
-  if (t.listener) t.listener->add("lamps", from.light);
   sample_mirrored(
       by, surface, t.options.max_bounces - 1, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
       [&](const Vec3&, std::uint32_t group, const Vec3& mirrored) {
         light.scattered += mirrored;
         if (t.grouped) t.grouped->add(PathGroups::kScattered, group, mirrored);
-        if (t.listener) t.listener->add("mirrored lamps", mirrored);
       });
   sample_frosted(
       by, surface, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
       [&](const Vec3&, std::uint32_t group, const Vec3& frosted) {
         light.scattered += frosted;
         if (t.grouped) t.grouped->add(PathGroups::kScattered, group, frosted);
-        if (t.listener) t.listener->add("frosted lamps", frosted);
       });
   const float u = sampler.next1();
   const auto sample = shading.sample(u, sampler.next2());
@@ -307,7 +297,6 @@ Vec3 refracted_light(const Transport& t, const SurfacePoint& surface, const Vec3
     const Vec3 passed =
         surface.shade.transmission * (1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, wo))));
     const Vec3 glow = passed * sample_behind({t, sampler, rays}, surface, shading);
-    if (t.listener) t.listener->add("frosted lamps", glow);
     return glow + path.follow({spawn_origin(surface, direction), direction}, 0, 1, passed).scattered;
   }
   const auto sample = shading.refracted(sampler.next2());
@@ -349,21 +338,18 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
                  },
                  density)
                  .light;
-  if (t.listener) t.listener->add("lamps", s.direct);
   if (directional && light_cosine > 0) add_moments(s.direct / light_cosine, towards);
   sample_mirrored(
       by, surface, t.options.max_bounces,
       [&](const Vec3& wi, bool punctual) { return Vec3(shading.cosine(wi, punctual)); },
       [&](const Vec3& from, std::uint32_t, const Vec3& mirrored) {
         s.direct += mirrored;
-        if (t.listener) t.listener->add("mirrored lamps", mirrored);
         if (directional) add_moments(mirrored / shading.cosine(from, true), from);
       });
   sample_frosted(
       by, surface, [&](const Vec3& wi, bool punctual) { return Vec3(shading.cosine(wi, punctual)); },
       [&](const Vec3& from, std::uint32_t, const Vec3& frosted) {
         s.direct += frosted;
-        if (t.listener) t.listener->add("frosted lamps", frosted);
         if (directional) add_moments(frosted / shading.cosine(from), from);
       });
   const Vec2 u = sampler.next2();
@@ -371,7 +357,6 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = std::max(density(direction), 1e-12f);
   const float weight = directional ? shading.cosine(direction) / pdf : kPi;  // cosθ / pdf
-  if (t.listener) t.listener->weigh(weight);
   const PathLight light = PathTracer(t, sampler, rays).follow(ray, pdf, 0, Vec3(1));
   s.direct += weight * (light.emitted + light.sky);
   s.indirect = weight * light.scattered;

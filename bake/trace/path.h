@@ -22,15 +22,13 @@ struct PathOptions {
 };
 
 class PathGroups;
-class PathListener;
 
 // What a path needs to know of the scene.
 struct Transport {
   const Accel& accel;
   const LightSet& lights;
   PathOptions options;
-  PathListener* listener = nullptr;  // of few paths, by one thread; null: nobody listens
-  PathGroups* grouped = nullptr;     // filled by one thread; null: light by group is not wanted
+  PathGroups* grouped = nullptr;  // filled by one thread; null: light by group is not wanted
 };
 
 // A surface as a path meets it.
@@ -63,20 +61,6 @@ SurfacePoint point_on_side(const Scene& scene, std::uint32_t triangle, const Vec
 // The same with `rounded`, for which a ray is traced: surfaces that rays leave.
 SurfacePoint surface_at(const Accel& accel, const Hit& hit, const Vec3& direction, float width_m = 0);
 SurfacePoint point_on_side(const Accel& accel, std::uint32_t triangle, const Vec2& barycentric, bool front = true);
-
-// Is told what paths meet, vertex by vertex.
-class PathListener {
- public:
-  virtual ~PathListener() = default;
-  // A path that gives `what` begins.
-  virtual void begin(const char* what) = 0;
-  // It meets a surface; light from there counts by `throughput`.
-  virtual void meet(const SurfacePoint& surface, const Vec3& throughput) = 0;
-  // What follows counts so many times.
-  virtual void weigh(float weight) = 0;
-  // Light comes to it: from "lamps", "mirrored lamps", "frosted lamps", "emission" or "sky", throughput in it.
-  virtual void add(const char* from, const Vec3& light) = 0;
-};
 
 // Light of paths by light group (Scene::light_groups), one AOV a group. Paths that leave diffuse reflection to their
 // caller fill it (trace_to_diffuse, specular_light).

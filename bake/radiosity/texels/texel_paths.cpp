@@ -18,7 +18,6 @@ void TexelPaths::add(const MapTexel& texel, const PathNumbers& paths, TexelSums&
     const SurfacePoint surface = point_of(texel, Vec3(uv, sampler.next1()));
     if (mixed && is_buried(t_, surface, {seed_, stream, k}, rays)) continue;
     if (!part.holds(surface.triangle, surface.barycentric, rays)) continue;
-    if (t_.listener) t_.listener->begin("irradiance, lux"), t_.listener->meet(surface, Vec3(1));
     sums.add(sample_irradiance(t_, surface, sampler, rays, directional_));
   }
 }
