@@ -30,6 +30,6 @@ int main(int argc, char** argv) {
        .footer = kFooter,
        .options = {},
        .commands = {barczak2006_command(arguments), bastos1999_command(arguments), diefenbach1997_command(arguments),
-                    herf1997_command(arguments, herf1997), udeshi1999_command()}}};
+                    herf1997_command(arguments, herf1997), udeshi1999_command(), phong_fit_command()}}};
   return run_program(line, argc, argv);
 }

@@ -16,5 +16,7 @@ ToolCommand herf1997_command(ShownArguments& arguments, Herf1997Settings& settin
 ToolCommand barczak2006_command(ShownArguments& arguments);
 ToolCommand bastos1999_command(ShownArguments& arguments);
 ToolCommand udeshi1999_command();
+// Not a room: numbers of Diefenbach and Badler's lobe.
+ToolCommand phong_fit_command();
 
 }  // namespace oriel::study

@@ -15,7 +15,6 @@ ToolCommand lux_command(BakeSession& session);
 ToolCommand render_command(BakeSession& session);
 ToolCommand preview_command(BakeSession& session);
 ToolCommand trade_command(BakeSession& session);
-ToolCommand material_command(BakeSession& session);
 
 // Becomes oriel-preview with these words. Error kRuntime where that cannot be started.
 Status start_preview(std::vector<std::string> words);

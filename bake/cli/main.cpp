@@ -14,8 +14,8 @@ namespace {
 
 CommandLine command_line(BakeSession& session) {
   CommandLine out{kVersion, bake_command(session)};
-  for (const auto make : {plan_command, lux_command, render_command, preview_command, material_command, trade_command,
-                          worker_command, submit_command, verify_command, cache_command})
+  for (const auto make : {plan_command, lux_command, render_command, preview_command, trade_command, worker_command,
+                          submit_command, verify_command, cache_command})
     out.command.commands.push_back(make(session));
   return out;
 }

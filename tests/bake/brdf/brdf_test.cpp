@@ -6,7 +6,6 @@
 
 #include "bake/brdf/quadrature.h"
 #include "bake/brdf/specular.h"
-#include "bake/brdf/ward.h"
 #include "bake/trace/bsdf.h"
 #include "tests/bake/support/chi2.h"
 
@@ -176,14 +175,9 @@ DVec3 direction(double cos_theta, double phi) {
 
 // f(wo, wi) = f(wi, wo), compensation included, to 1e-5 of the value.
 TEST(Reciprocity, OfAllLobes) {
-  std::vector<LobeFunction> lobes{function_of({FacetModel::kGgx, 0.05}), function_of({FacetModel::kBeckmann, 0.4}),
-                                  function_of({FacetModel::kGgx, 0.3, 0.05})};
-  for (const WardNorm norm : {WardNorm::kOriginal, WardNorm::kDuer, WardNorm::kBounded})
-    lobes.emplace_back([=](const DVec3& wo, const DVec3& wi, const DVec3& h) {
-      return Ward{norm, 0.2}.f_cos(wo, wi, h);
-    });
-  lobes.emplace_back(
-      [](const DVec3& wo, const DVec3& wi, const DVec3& h) { return cited_phong(0.2).f_cos(wo, wi, h); });
+  const std::vector<LobeFunction> lobes{function_of({FacetModel::kGgx, 0.05}),
+                                        function_of({FacetModel::kBeckmann, 0.4}),
+                                        function_of({FacetModel::kGgx, 0.3, 0.05})};
   for (const LobeFunction& f : lobes)
     for (const double a : {0.01, 0.3, 0.9})
       for (const double b : {0.05, 0.5, 1.0})
@@ -317,19 +311,6 @@ TEST_P(BsdfOf, LayersSampleTheirPdf) {
 }
 INSTANTIATE_TEST_SUITE_P(Layers, BsdfOf,
                          ::testing::Values(std::pair{0.7f, 0.0f}, std::pair{0.0f, 1.0f}, std::pair{0.5f, 0.6f}));
-
-// The refit of Phong's lobe to Ward's: 2/α² and 1/8π in the limit, where 1.999/α² and 0.0398 were published.
-TEST(PhongFit, ApproachesTheAnalyticLimit) {
-  for (const double alpha : {0.02, 0.1, 0.3}) {
-    const PhongFit fit = fit_phong(alpha);
-    std::printf("alpha %.2f: exponent %.5f/alpha^2, gain %.6f exponent, chi2 %.3g (published constants %.3g)\n", alpha,
-                fit.phong.exponent * alpha * alpha, fit.phong.gain / fit.phong.exponent, fit.chi2, fit.cited_chi2);
-    EXPECT_LT(fit.chi2, fit.cited_chi2);
-  }
-  const PhongFit narrow = fit_phong(0.005);
-  EXPECT_NEAR(narrow.phong.exponent * 0.005 * 0.005, 2, 1e-4);
-  EXPECT_NEAR(narrow.phong.gain / narrow.phong.exponent, 1 / (8 * kPiD), 1e-6);
-}
 
 }  // namespace
 }  // namespace oriel

@@ -45,56 +45,6 @@ class BakeCli : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST_F(BakeCli, MaterialsAreListedAndPlotted) {
-  ASSERT_EQ(run("oriel-bake material --list"), 0) << log();
-  EXPECT_NE(log().find("chromium"), std::string::npos);
-  ASSERT_EQ(run("oriel-bake material --plot gold -o plots --no-pictures"), 0) << log();
-  EXPECT_TRUE(fs::exists(folder_ / "plots/gold_reflectance.csv"));
-  EXPECT_TRUE(fs::exists(folder_ / "plots/gold.gp"));
-  EXPECT_EQ(run("oriel-bake material --plot tin -o plots"), 1);
-  EXPECT_NE(log().find("gold, silver"), std::string::npos) << log();
-  ASSERT_EQ(run("oriel-bake material --plot CU -o plots --no-pictures"), 0) << log();
-  EXPECT_TRUE(fs::exists(folder_ / "plots/copper_reflectance.csv"));
-  EXPECT_EQ(run("oriel-bake material --plot gold"), 1) << "no folder";
-  EXPECT_EQ(run("oriel-bake material --plot gold -o plots eval --angles 3"), 1);
-  EXPECT_NE(log().find("--plot: found before eval"), std::string::npos) << log();
-  EXPECT_EQ(run("oriel-bake material --list fit --alpha 0.1"), 1);
-  EXPECT_EQ(run("oriel-bake material"), 1);
-  EXPECT_EQ(run("oriel-bake material --plot gold -o cornell.glb"), 2) << "a file is in the way";
-  const std::string without = "PATH=/nowhere '" + std::string(ORIEL_BIN_DIR) +
-                              "/oriel-bake' material --plot water -o '" + (folder_ / "plots").string() +
-                              "' 2>/dev/null";
-  EXPECT_EQ(WEXITSTATUS(std::system(without.c_str())), 4) << "no gnuplot";
-  EXPECT_TRUE(fs::exists(folder_ / "plots/water_radial.csv")) << "the tables are there all the same";
-}
-
-TEST_F(BakeCli, MaterialEvalPrintsNumbers) {
-  ASSERT_EQ(run("oriel-bake material eval --model ggx --alpha 1 --angles 0,60 --json"), 0) << log();
-  const auto rows = Json::parse(log()).value();
-  ASSERT_EQ(rows.size(), 2u);
-  EXPECT_NEAR(rows[0]["albedo"][0].get<double>(), 1 - std::log(2.0), 1e-6);
-  EXPECT_NEAR(rows[0]["albedo_compensated"][0].get<double>(), 1, 2e-3);
-  EXPECT_NEAR(rows[1]["D"].get<double>(), 1 / 3.14159265, 1e-6);
-  ASSERT_EQ(run("oriel-bake material eval --metal gold --alpha 0.1 --angles 60 --json"), 0) << log();
-  EXPECT_NEAR(Json::parse(log()).value()[0]["F"][2].get<double>(), 0.438301, 1e-5);
-  ASSERT_EQ(run("oriel-bake material eval --eta 1.5 --angles 85 --schlick"), 0) << log();
-  EXPECT_NE(log().find("3.57e-02"), std::string::npos) << log();
-  EXPECT_EQ(run("oriel-bake material eval --eta 1,2 --angles 3"), 1);
-  EXPECT_EQ(run("oriel-bake material eval --metal tin --angles 3"), 1);
-  EXPECT_NE(log().find("gold, silver"), std::string::npos) << log();
-  EXPECT_EQ(run("oriel-bake material eval --alpha 0 --angles 3"), 1);
-  for (const char* options : {"eval --alpha nan --angles 3", "eval --angles 3,nan", "eval --eta nan --angles 3",
-                              "eval --eta 1 --k nan --angles 3", "fit --alpha nan", "--plot gold -o p --alpha nan"}) {
-    EXPECT_EQ(run(std::string("oriel-bake material ") + options), 1) << options;
-    EXPECT_NE(log().find("found 'nan'"), std::string::npos) << log();
-  }
-  ASSERT_EQ(run("oriel-bake material eval --model ward-duer --angles 0 --json"), 0) << log();
-  EXPECT_FALSE(Json::parse(log()).value()[0].contains("albedo_compensated"));
-  ASSERT_EQ(run("oriel-bake material eval --eta 1.0001 --angles 0"), 0) << log();
-  EXPECT_NE(log().find("2.49975e-09"), std::string::npos) << log();
-  EXPECT_EQ(run("oriel-bake --texel 1cm material eval --angles 3"), 1) << "an option of the bake";
-}
-
 TEST_F(BakeCli, ExitCodesAndMessages) {
   EXPECT_EQ(run("oriel-bake --help"), 0);
   EXPECT_NE(log().find("Exit codes"), std::string::npos);

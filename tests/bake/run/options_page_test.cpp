@@ -84,7 +84,6 @@ TEST_F(Options, BashCompletesNamesAndValues) {
   EXPECT_EQ(complete("oriel-bake --atlas u", 2), "uv1\n");
   EXPECT_EQ(complete("oriel-bake lux --gr", 2), "--grid\n");
   EXPECT_EQ(complete("oriel-bake lux --at", 2), "\n") << "an option of the bake alone";
-  EXPECT_EQ(complete("oriel-bake material eval --model b", 4), "beckmann\n");
   EXPECT_EQ(complete("oriel-bake ren", 1), "render\n");
 }
 

@@ -7,7 +7,6 @@
 #include "bake/brdf/compensation.h"
 #include "bake/brdf/fresnel.h"
 #include "bake/brdf/quadrature.h"
-#include "bake/brdf/ward.h"
 
 namespace oriel::validation {
 namespace {

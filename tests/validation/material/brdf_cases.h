@@ -1,4 +1,4 @@
-// The suite's cases of functions: Fresnel, microfacets, Cook and Torrance, Ward, Phong.
+// The suite's cases of functions: Fresnel, microfacets, Cook and Torrance.
 #pragma once
 
 #include <string>
@@ -17,6 +17,5 @@ struct FunctionReading {
 std::vector<FunctionReading> fresnel_readings(const Suite& suite);     // NK, FRE
 std::vector<FunctionReading> microfacet_readings(const Suite& suite);  // MIC
 std::vector<FunctionReading> groove_readings(const Suite& suite);  // CTK: D·G with the grooves of Cook and Torrance
-std::vector<FunctionReading> ward_readings(const Suite& suite);    // WARD, WPH
 
 }  // namespace oriel::validation

@@ -1,10 +1,9 @@
-// Lobes' shapes: Cook and Torrance's grooves, Ward, Phong.
+// Lobes' shapes: Cook and Torrance's grooves, GGX.
 #include <algorithm>
 #include <cmath>
 
 #include "bake/brdf/compensation.h"
 #include "bake/brdf/quadrature.h"
-#include "bake/brdf/ward.h"
 #include "tests/validation/material/brdf_cases.h"
 
 namespace oriel::validation {
@@ -71,18 +70,6 @@ void shape_case(const Json& in, const Json& expected, const LobeFunction& f, con
   all.push_back({what + "r90", radius_of(shape, 0.9), expected["r90_deg"].get<double>(), degrees});
 }
 
-void fit_case(const Suite& suite, std::vector<FunctionReading>& all) {
-  const Json& c = suite.find("WPH-01");
-  const double rel = c["tolerance"]["rel"].get<double>();
-  for (const auto& [alpha, fit] : c["expected"]["least_squares_fits"].items()) {
-    const double a = std::stod(alpha);
-    const Phong found = fit_phong(a).phong;
-    const double exponent = fit["n_alpha2_2param"].get<double>(), factor = fit["factor_over_n_2param"].get<double>();
-    all.push_back({"WPH-01 exponent " + alpha, found.exponent * a * a, exponent, rel * exponent});
-    all.push_back({"WPH-01 factor " + alpha, found.gain / found.exponent, factor, rel * factor});
-  }
-}
-
 }  // namespace
 
 std::vector<FunctionReading> groove_readings(const Suite& suite) {
@@ -108,34 +95,6 @@ std::vector<FunctionReading> groove_readings(const Suite& suite) {
         [&](const DVec3& wo, const DVec3& wi, const DVec3& h) { return ggx.f_cos(wo, wi, h); }, "ggx",
         lobes["tolerance"], all);
   }
-  return all;
-}
-
-std::vector<FunctionReading> ward_readings(const Suite& suite) {
-  std::vector<FunctionReading> all;
-  const Json& c = suite.find("WARD-a");
-  for (const auto& [name, norm] : {std::pair{"ward_original", WardNorm::kOriginal},
-                                   {"ward_duer", WardNorm::kDuer},
-                                   {"ward_gmd", WardNorm::kBounded}})
-    for (const auto& [alpha, values] : c["expected"][name].items())
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const Ward ward{norm, std::stod(alpha)};
-        const double mu = c["inputs"]["mu"][i].get<double>();
-        const auto f = [&](const DVec3& wo, const DVec3& wi, const DVec3& h) { return ward.f_cos(wo, wi, h); };
-        all.push_back({fmt::format("WARD {} alpha {} mu {}", name, alpha, mu), shape_of(f, ward.alpha, mu).energy,
-                       values[i].get<double>(), c["tolerance"]["abs"].get<double>()});
-      }
-  fit_case(suite, all);
-  const Json& points = suite.find("WPH-02");
-  const double rel = points["tolerance"]["rel"].get<double>();
-  for (const auto& [alpha, values] : points["expected"]["ward"].items())
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double a = std::stod(alpha), cosine = std::cos(points["inputs"]["d_deg"][i].get<double>() * kPiD / 180);
-      const double ward = values[i].get<double>(), phong = points["expected"]["phong_fit"][alpha][i].get<double>();
-      // Printed with ten decimals.
-      all.push_back({"WPH-02 ward " + alpha, Ward{WardNorm::kOriginal, a}.lobe(cosine), ward, rel * ward + 1e-10});
-      all.push_back({"WPH-02 phong " + alpha, cited_phong(a).lobe(cosine), phong, rel * phong + 1e-10});
-    }
   return all;
 }
 

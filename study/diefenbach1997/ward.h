@@ -4,7 +4,7 @@
 
 #include "formats/core/vec.h"
 
-namespace oriel {
+namespace oriel::study {
 
 enum class WardNorm : std::uint8_t {
   kOriginal,  // Ward 1992: 1 / √(cosθo cosθi); loses energy at grazing angles
@@ -42,4 +42,4 @@ struct PhongFit {
 // The exponent and gain with the least squared difference from Ward's lobe over δ in [0°, 90°], by Gauss and Newton.
 PhongFit fit_phong(double alpha);
 
-}  // namespace oriel
+}  // namespace oriel::study

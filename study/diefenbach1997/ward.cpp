@@ -1,6 +1,9 @@
-#include "bake/brdf/ward.h"
+#include "study/diefenbach1997/ward.h"
 
-namespace oriel {
+#include "formats/core/file.h"
+#include "study/rooms.h"
+
+namespace oriel::study {
 namespace {
 
 constexpr int kAngles = 20000;  // of the fit
@@ -77,4 +80,21 @@ PhongFit fit_phong(double alpha) {
   return {phong, chi_square(ward, phong), chi_square(ward, cited_phong(alpha))};
 }
 
-}  // namespace oriel
+ToolCommand phong_fit_command() {
+  return {.name = "phong-fit",
+          .help = "Phong's lobe fitted to Ward's, beside 1.999/alpha^2 and 0.0398 exponent of Diefenbach & Badler 1997",
+          .footer = {},
+          .options = {},
+          .run = [] {
+            std::string text = fmt::format("{:>8} {:>18} {:>14} {:>12} {:>16}\n", "alpha", "exponent*alpha^2",
+                                           "gain/exponent", "chi2", "chi2 cited");
+            for (const double alpha : {0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5}) {
+              const auto [phong, chi2, cited] = fit_phong(alpha);
+              text += fmt::format("{:8g} {:18.5f} {:14.6f} {:12.3g} {:16.3g}\n", alpha, phong.exponent * alpha * alpha,
+                                  phong.gain / phong.exponent, chi2, cited);
+            }
+            return oriel::print(text);
+          }};
+}
+
+}  // namespace oriel::study
