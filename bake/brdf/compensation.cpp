@@ -47,14 +47,14 @@ Compensation::Compensation(const CosineLobe& lobe, int order) : width_(lobe.widt
   }
   scale_.fill(1);
   for (int step = 0; step < kMaxSteps; ++step) {
-    imbalance_ = 0;
+    double imbalance = 0;  // of a lobe without absorption, from 1
     Row reflected{};
     for (std::size_t i = 0; i < kNodes; ++i) {
       for (std::size_t j = 0; j < kNodes; ++j) reflected[i] += k[i][j] * scale_[j];
       if (step == 0) albedo_[i] = reflected[i];
-      imbalance_ = std::max(imbalance_, std::abs(scale_[i] * reflected[i] - 1));
+      imbalance = std::max(imbalance, std::abs(scale_[i] * reflected[i] - 1));
     }
-    if (imbalance_ < kBalanced) break;
+    if (imbalance < kBalanced) break;
     for (std::size_t i = 0; i < kNodes; ++i) scale_[i] = std::sqrt(scale_[i] / reflected[i]);
   }
 }

@@ -29,9 +29,6 @@ class Compensation {
   double scale(double cos_theta) const { return at(scale_, cos_theta); }
   double albedo(double cos_theta) const { return at(albedo_, cos_theta); }
 
-  // How far from 1 a lobe without absorption is at the nodes, at most: below 1e-7 where the solution converged.
-  double imbalance() const { return imbalance_; }
-
   // Nodes of the tables are even in q = cosθ (1 + α) / (cosθ + α): where α is small, albedos depend on cosθ / α alone.
   static constexpr int kNodes = 96;
   static double coordinate(double width, double cos_theta) {
@@ -43,7 +40,7 @@ class Compensation {
  private:
   double at(const std::array<double, kNodes>& table, double cos_theta) const;
 
-  double width_, imbalance_ = 0;
+  double width_;
   std::array<double, kNodes> scale_{}, albedo_{};
 };
 

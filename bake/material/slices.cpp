@@ -110,14 +110,6 @@ std::vector<float> integrate_pixels(const LobeFunction& lobe, const MirrorFrame&
 
 }  // namespace
 
-DVec3 from_mirror_coordinates(double cos_theta, const DVec2& u) {
-  return unproject(MirrorFrame(cos_theta), u);
-}
-
-DVec2 to_mirror_coordinates(double cos_theta, const DVec3& wi) {
-  return project(MirrorFrame(cos_theta), wi);
-}
-
 KernelSlice make_slice(const LobeFunction& lobe, double alpha, double cos_theta, const SliceOptions& options) {
   const MirrorFrame frame(cos_theta);
   const std::vector<SliceNode> nodes = projected_nodes(lobe, alpha, frame);

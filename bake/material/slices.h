@@ -19,10 +19,6 @@ inline void fields(Archive& archive, SliceOptions& o) {
 // Lobes at grazing incidence have a limit, but their formulas divide by the cosine.
 inline constexpr float kGrazingCosine = 1e-3f;
 
-// Directions around the mirror direction: stereographic coordinates as in KernelSlice. Unit vectors over +z.
-DVec3 from_mirror_coordinates(double cos_theta, const DVec2& u);
-DVec2 to_mirror_coordinates(double cos_theta, const DVec3& wi);
-
 // The lobe at one incidence, [kGrazingCosine, 1]. alpha: the width of the half vectors' distribution, 1e-5 to 1 (only
 // where to look; the lobe decides). The box lies where the tails outside it are equal on both sides; a pixel's
 // weight is the integral of the lobe over the solid angle it covers, its sum made 1. albedo, tilt and radial shares

@@ -133,8 +133,4 @@ LobeFit fit_lobe(const LobeFunction& lobe, double alpha, double cos_theta) {
   return fit;
 }
 
-double fit_distance(const LobeFunction& lobe, double alpha, double cos_theta, const LobeFit& fit) {
-  return distance(nodes_of(lobe, alpha, cos_theta), fit);
-}
-
 }  // namespace oriel

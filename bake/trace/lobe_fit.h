@@ -12,8 +12,4 @@ namespace oriel {
 // The same arguments give the same fit.
 LobeFit fit_lobe(const LobeFunction& lobe, double alpha, double cos_theta);
 
-// That distance, [0, 2]: no integral over a region is off by more than it, as a share of the lobe. GGX: below 0.06 up
-// to 45° of incidence; Beckmann: about 0.35, whose tails a cosine has not.
-double fit_distance(const LobeFunction& lobe, double alpha, double cos_theta, const LobeFit& fit);
-
 }  // namespace oriel

@@ -85,13 +85,12 @@ class TransferBake {
       : object_(object), scene_(object.scene()), options_(options), stage_(stage) {
     count_ = static_cast<std::size_t>(sh_count(options.bands));
     out_.bands = options.bands;
-    out_.channels = options.shadowed && coloured() ? 3 : 1;
+    out_.channels = coloured() ? 3 : 1;
     out_.coefficients.resize(scene_.positions.size() * out_.stride());
   }
 
   Result<VertexTransfer> run() {
     unshadowed();
-    if (!options_.shadowed) return std::move(out_);
     ORIEL_TRY_VOID(pass("transfer", std::max(16u, options_.samples), 0, nullptr));
     VertexTransfer last = out_;  // of the last bounce alone
     for (int bounce = 1; bounce <= options_.bounces; ++bounce) {

@@ -13,12 +13,11 @@ namespace oriel {
 
 struct TransferOptions {
   int bands = 5;                 // of spherical harmonics, 2 to 6: bands² coefficients
-  bool shadowed = true;          // the object shades itself
-  int bounces = 2;               // of light between its own parts; 0 where not shadowed
+  int bounces = 2;               // of light between its own parts
   std::uint32_t samples = 1024;  // rays a vertex, and a quarter for each bounce; rounded down to a power of two, >= 16
 };
 inline void fields(Archive& archive, TransferOptions& o) {
-  archive(o.bands, o.shadowed, o.bounces, o.samples);
+  archive(o.bands, o.bounces, o.samples);
 }
 
 // T with B = albedo · Σ T_i L_i: radiance that a diffuse vertex sends out under distant radiance Σ L_i Y_i. Unoccluded,

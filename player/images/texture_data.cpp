@@ -1,6 +1,6 @@
 #include "player/images/texture_data.h"
 
-#include <limits>
+#include <algorithm>
 
 namespace oriel {
 namespace {
@@ -24,8 +24,6 @@ TextureUpload::TextureUpload(TextureData data) : data_(std::move(data)) {
     array = {data_.format, data_.width, data_.height, data_.layers, data_.options};
   else
     texture = {data_.format, data_.width, data_.height, nullptr, data_.options};
-  for (const TextureData::Block& block : data_.blocks)
-    left_ += row_bytes(data_, block) * static_cast<std::size_t>(block.height);
 }
 
 bool TextureUpload::step(std::size_t bytes) {
@@ -42,7 +40,6 @@ bool TextureUpload::step(std::size_t bytes) {
     else
       texture.upload(block.level, block.row + row_, rows, pixels);
     done += of_row * static_cast<std::size_t>(rows);
-    left_ -= of_row * static_cast<std::size_t>(rows);
     row_ += rows;
     if (row_ < block.height) continue;
     block.pixels.reset();
@@ -50,12 +47,6 @@ bool TextureUpload::step(std::size_t bytes) {
     ++block_;
   }
   return true;
-}
-
-gpu::Texture2d upload_texture(TextureData data) {
-  TextureUpload upload(std::move(data));
-  upload.step(std::numeric_limits<std::size_t>::max());
-  return std::move(upload.texture);
 }
 
 }  // namespace oriel

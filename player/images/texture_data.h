@@ -40,17 +40,14 @@ class TextureUpload {
   explicit TextureUpload(TextureData data);
   // Some more rows, of at most `bytes` and at least one; true once all is there.
   bool step(std::size_t bytes);
-  std::size_t bytes_left() const { return left_; }
 
   gpu::Texture2d texture;   // of data with layers 0
   gpu::TextureArray array;  // else
 
  private:
   TextureData data_;
-  std::size_t block_ = 0, left_ = 0;
+  std::size_t block_ = 0;
   int row_ = 0;  // of the block
 };
-
-gpu::Texture2d upload_texture(TextureData data);
 
 }  // namespace oriel

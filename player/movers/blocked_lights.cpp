@@ -116,7 +116,6 @@ BlockedLights::BlockedLights(std::span<const ShadeCell> cells, std::span<const S
 void BlockedLights::move(std::uint32_t mover, const Vec4& sphere) {
   ORIEL_CHECK_LT(mover, kMostMovers);
   if (!(is_finite(Vec3(sphere)) && std::isfinite(sphere.w) && sphere.w >= 0)) return remove(mover);
-  work_ = {};
   if (cells_.empty() || spheres_[mover] == sphere) return;
   spheres_[mover] = sphere;
   Moving moving{std::uint64_t{1} << mover, {Vec3(sphere) - sphere.w, Vec3(sphere) + sphere.w}, {}};
@@ -128,7 +127,6 @@ void BlockedLights::move(std::uint32_t mover, const Vec4& sphere) {
 
 void BlockedLights::remove(std::uint32_t mover) {
   ORIEL_CHECK_LT(mover, kMostMovers);
-  work_ = {};
   spheres_[mover] = kNowhere;
   if (cells_.empty()) return;
   for (std::uint32_t light = 0; light < lights_.size(); ++light) clear(0, light, std::uint64_t{1} << mover);
@@ -141,16 +139,6 @@ std::vector<std::uint32_t> BlockedLights::lights_of(std::uint32_t leaf) const {
   return out;
 }
 
-std::uint64_t BlockedLights::movers_of(std::uint32_t cell, std::uint32_t light) const {
-  return movers_[at(cell, light)];
-}
-
-bool BlockedLights::asks(std::uint32_t light, const Bounds& box) {
-  if (!hidden_) return false;
-  ++work_.asked;
-  return hidden_(light, box);
-}
-
 // The state of the cell itself: the cells around it are partial.
 bool BlockedLights::blocks(std::uint32_t index, std::uint32_t light, const Moving& moving) {
   const ShadeCell& cell = cells_[index];
@@ -158,10 +146,9 @@ bool BlockedLights::blocks(std::uint32_t index, std::uint32_t light, const Movin
   Sight& sight = sight_[at(index, light)];
   if (sight == Sight::kUnknown) sight = faces(cell, lights_[light]) ? Sight::kFacing : Sight::kClosed;
   if (sight == Sight::kClosed) return false;
-  ++work_.tests;
   const Vec3& from = lights_[light].position;
   if (!touches_pyramid(cell.content.lower - from, cell.content.upper - from, moving.seen[light])) return false;
-  if (sight == Sight::kFacing) sight = asks(light, cell.content) ? Sight::kClosed : Sight::kOpen;
+  if (sight == Sight::kFacing) sight = hides(light, cell.content) ? Sight::kClosed : Sight::kOpen;
   return sight == Sight::kOpen;
 }
 
@@ -170,7 +157,7 @@ bool BlockedLights::blocks_any(std::uint32_t light, const Moving& moving) {
   const Vec3& normal = lights_[light].normal;
   const SeenSphere& seen = moving.seen[light];
   if (normal != Vec3(0) && glm::dot(normal, seen.center) < -seen.radius) return false;
-  return blocks(0, light, moving) && !asks(light, moving.box);
+  return blocks(0, light, moving) && !hides(light, moving.box);
 }
 
 // Table 4-1. Where the mover blocks nothing now, it blocks nothing in the children either: no tests.
@@ -183,9 +170,7 @@ void BlockedLights::visit(std::uint32_t cell, std::span<const std::uint32_t> lig
       clear(cell, light, moving.bit);
       continue;
     }
-    std::uint64_t& movers = movers_[at(cell, light)];
-    if (child == 0 && (movers & moving.bit) == 0) ++work_.begun;
-    movers |= moving.bit;
+    movers_[at(cell, light)] |= moving.bit;
     partial.push_back(light);
   }
   if (child == 0 || partial.empty()) return;
@@ -198,10 +183,7 @@ void BlockedLights::clear(std::uint32_t cell, std::uint32_t light, std::uint64_t
   if ((movers & bit) == 0) return;
   movers &= ~bit;
   const std::uint32_t child = cells_[cell].child;
-  if (child == 0) {
-    ++work_.ended;
-    return;
-  }
+  if (child == 0) return;
   clear(child, light, bit);
   clear(child + 1, light, bit);
 }

@@ -36,23 +36,13 @@ class BlockedLights {
 
   // Those that some mover may block in part there, ascending.
   std::vector<std::uint32_t> lights_of(std::uint32_t leaf) const;
-  // A bit for each mover that may.
-  std::uint64_t movers_of(std::uint32_t cell, std::uint32_t light) const;
-
-  // Of the last move() or remove().
-  struct Work {
-    std::size_t tests = 0;             // of the sphere, against cell and light
-    std::size_t asked = 0;             // of Hidden
-    std::size_t begun = 0, ended = 0;  // leaves and lights that went from none to partial, and back
-  };
-  const Work& last_work() const { return work_; }
 
  private:
   enum class Sight : std::uint8_t { kUnknown, kFacing, kOpen, kClosed };  // of a cell, from a light
   struct Moving;
 
   std::size_t at(std::uint32_t cell, std::uint32_t light) const { return cell * lights_.size() + light; }
-  bool asks(std::uint32_t light, const Bounds& box);
+  bool hides(std::uint32_t light, const Bounds& box) const { return hidden_ && hidden_(light, box); }
   bool blocks(std::uint32_t cell, std::uint32_t light, const Moving& moving);
   bool blocks_any(std::uint32_t light, const Moving& moving);
   void visit(std::uint32_t cell, std::span<const std::uint32_t> lights, const Moving& moving);
@@ -64,7 +54,6 @@ class BlockedLights {
   std::vector<std::uint64_t> movers_;  // by cell and light
   std::vector<Sight> sight_;           // the same
   std::vector<Vec4> spheres_;          // by mover; radius below 0: nowhere
-  Work work_;
 };
 
 }  // namespace oriel

@@ -1,5 +1,6 @@
 // The march through a surround map against closed forms, on the GPU as on the CPU, and the pyramid that is made of a
 // map.
+#include <limits>
 #include <random>
 
 #include "tests/player/curved_scene.h"
@@ -113,8 +114,13 @@ TEST_F(SurroundFrames, MarchAlikeOnBothSides) {
   const SurroundPyramid pyramid = make_surround_pyramid(map);
   SurroundData data = surround_data(map);
   SurroundTextures textures = std::move(data.place);
-  textures.light = upload_texture(std::move(data.light));
-  textures.inverse_distance = upload_texture(std::move(data.inverse_distance));
+  const auto upload = [](TextureData whole) {
+    TextureUpload all(std::move(whole));
+    all.step(std::numeric_limits<std::size_t>::max());
+    return std::move(all.texture);
+  };
+  textures.light = upload(std::move(data.light));
+  textures.inverse_distance = upload(std::move(data.inverse_distance));
   std::vector<Vec4> origins, directions;
   std::mt19937 random(9);
   std::normal_distribution<float> normal;

@@ -110,7 +110,6 @@ TEST(Compensation, WhiteFurnace) {
     for (const double alpha : kAlphas) {
       const CosineLobe lobe{function_of({model, alpha}), alpha};
       const Compensation compensation(lobe, 24);
-      EXPECT_LT(compensation.imbalance(), 1e-7) << alpha;
       for (const double cos_theta : kCosines) {
         const Albedo e = lobe_albedo(lobe, compensation, {[](double) { return DVec3(1); }, DVec3(1)}, cos_theta, 32);
         EXPECT_NEAR(e.compensated.r, 1, 2e-3) << alpha << " " << cos_theta;
