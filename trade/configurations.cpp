@@ -12,8 +12,7 @@ using Texts = std::vector<std::string>;
 
 class Planner {
  public:
-  Planner(const SceneFacts& facts, double texel_m, bool quick, std::string move)
-      : facts_(facts), texel_m_(texel_m), quick_(quick), move_(std::move(move)) {
+  Planner(const SceneFacts& facts, double texel_m, bool quick) : facts_(facts), texel_m_(texel_m), quick_(quick) {
     default_.knob = "default";
     default_.bake = {{"--error", "2%"}, {"--texel", length_text(texel_m)}};
   }
@@ -30,7 +29,6 @@ class Planner {
     light();
     reflections();
     movers();
-    moved_lamp();
     no_bake();
     paths();
     out.configurations = std::move(configurations_);
@@ -116,21 +114,6 @@ class Planner {
     for (const std::string& lights : either({"0"}, {"0", "32", "512"})) add("shade", lights, {}, {{"--shade", lights}});
   }
 
-  // Ways to show a lamp elsewhere.
-  void moved_lamp() {
-    if (move_.empty()) {
-      skip("moved lamp", "--moved-lamp LAMP=x,y,z says which and where to");
-      return;
-    }
-    const std::size_t first = configurations_.size();
-    const Settings grouped{{"--light-groups", "each"}}, there{{"--move", move_}};
-    add("moved lamp", "baked anew", there, {});
-    add("moved lamp", "live", grouped, there);
-    add("moved lamp", "switched off", grouped, {{"--light", move_.substr(0, move_.find('=')) + "=off"}});
-    add("moved lamp", "not followed", {}, {});
-    for (std::size_t i = first; i < configurations_.size(); ++i) configurations_[i].moved = true;
-  }
-
   void no_bake() {
     for (const unsigned passes : {1u, 16u}) {
       Configuration c;
@@ -154,7 +137,6 @@ class Planner {
   const SceneFacts& facts_;
   const double texel_m_;
   const bool quick_;
-  const std::string move_;
   Configuration default_;
   std::vector<Configuration> configurations_;
   std::vector<std::string> skipped_;
@@ -162,8 +144,8 @@ class Planner {
 
 }  // namespace
 
-TradePlan plan_trade(const SceneFacts& facts, double texel_m, bool quick, const std::string& move) {
-  return Planner(facts, quick ? 2 * texel_m : texel_m, quick, move).plan();
+TradePlan plan_trade(const SceneFacts& facts, double texel_m, bool quick) {
+  return Planner(facts, quick ? 2 * texel_m : texel_m, quick).plan();
 }
 
 std::string length_text(double metres) {

@@ -18,7 +18,6 @@ struct Configuration {
   Settings bake, play;  // all options of oriel-bake that matter here, and of oriel-play that are not its defaults
   unsigned paths = 0;   // not 0: no pack, frames path-traced by that many paths a pixel
   Settings preview{};   // not empty: no pack, frames of oriel-preview by these
-  bool moved = false;   // a lamp is elsewhere: held against frames of that, comparable with each other alone
 
   std::string name() const { return setting.empty() ? knob : knob + " " + setting; }
 };
@@ -32,8 +31,8 @@ struct TradePlan {
 };
 
 // texel_m: of the default, > 0. quick: few settings of each knob, references of fewer samples, texels of twice the
-// size. move: of a lamp, as oriel-bake takes it; empty: none is moved.
-TradePlan plan_trade(const SceneFacts& facts, double texel_m, bool quick, const std::string& move);
+// size.
+TradePlan plan_trade(const SceneFacts& facts, double texel_m, bool quick);
 
 // "20cm", "5mm", as the options take it.
 std::string length_text(double metres);

@@ -74,7 +74,6 @@ std::string plots_html(const Trade& trade, const std::vector<std::string>& knobs
     Plot plot{kind.title, kind.cost_label, kind.error_label, {}};
     for (const Row& row : trade.rows) {
       const auto cost = kind.cost_of(row.measures), error = kind.error_of(row.measures);
-      if (row.configuration.moved) continue;  // held against other frames
       if (!cost || !error) continue;
       const auto knob = std::find(knobs.begin(), knobs.end(), row.configuration.knob) - knobs.begin();
       plot.dots.push_back({*cost, 100 * *error, row.configuration.name(),

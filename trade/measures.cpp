@@ -1,6 +1,5 @@
 #include "trade/measures.h"
 
-#include <array>
 #include <cmath>
 
 #include "formats/analysis/error_bands.h"
@@ -67,7 +66,6 @@ Measures measures_from(const Json& json) {
     m.bake = BakeCost{number(bake, "seconds"), number(bake, "cpu_seconds"), bake.at("bytes").get<std::uint64_t>()};
   }
   if (json.contains("frame_ms")) m.frame_ms = json["frame_ms"].get<double>();
-  if (json.contains("live_s")) m.live_s = json["live_s"].get<double>();
   m.renderer = json.value("renderer", "");
   if (json.contains("texels")) {
     const Json& texels = json["texels"];
@@ -131,13 +129,12 @@ std::optional<double> of_bake(const Measures& m) {
   return m.bake ? std::optional(static_cast<double>((*m.bake).*kCost)) : std::nullopt;
 }
 
-constexpr std::array<Quantity, 18> kQuantities = {{
+constexpr Quantity kQuantities[] = {
     {"bake_s", "bake s", "{:.2f}", 1, "frames_by_bake", of_bake<&BakeCost::seconds>},
     {"bake_cpu_s", "bake CPU s", "{:.2f}", 1, "", of_bake<&BakeCost::cpu_seconds>},
     {"bytes", "pack MB", "{:.2f}", 1e-6, "frames_by_bytes",
      [](const Measures& m) { return m.bake && m.bake->bytes > 0 ? of_bake<&BakeCost::bytes>(m) : std::nullopt; }},
     {"frame_ms", "frame ms", "{:.1f}", 1, "frames_by_ms", [](const Measures& m) { return m.frame_ms; }},
-    {"live_s", "live s", "{:.2f}", 1, "", [](const Measures& m) { return m.live_s; }},
     {"texels", "", "", 1, "", of_texels<&TexelError::texels>},
     {"texel_relRMSE", "texels relRMSE %", "{:.2f}", 100, "texels_by_bake", of_texels<&TexelError::rel_rmse>},
     {"texel_nRMSE", "texels nRMSE %", "{:.2f}", 100, "", of_texels<&TexelError::n_rmse>},
@@ -151,7 +148,7 @@ constexpr std::array<Quantity, 18> kQuantities = {{
     {"frame_noise", "frames noise %", "{:.2f}", 100, "", of_frames<&CameraError::noise>},
     {"flip", "FLIP", "{:.4f}", 1, "", mean_flip},
     {"psnr_db", "PSNR dB", "{:.1f}", 1, "", psnr},
-}};
+};
 
 }  // namespace
 
@@ -227,12 +224,6 @@ Status read_frame_times(const std::string& json, Measures& measures) {
               for (const Json& frame : all.at("frames")) sum += number(frame, "ms");
               return sum / static_cast<double>(std::max<std::size_t>(all["frames"].size(), 1));
             }));
-  ORIEL_TRY(const double live_s, parsed(json, "oriel-play --stats", [](const Json& all) {
-              double sum = 0;
-              for (const Json& frame : all.at("frames")) sum += frame.value("live_s", 0.0);
-              return sum;
-            }));
-  if (live_s > 0) measures.live_s = live_s;
   ORIEL_TRY(measures.renderer,
             parsed(json, "oriel-play --stats", [](const Json& all) { return all.at("renderer").get<std::string>(); }));
   return {};
@@ -257,7 +248,6 @@ Json as_json(const Measures& m) {
   if (m.bake)
     json["bake"] = {{"seconds", m.bake->seconds}, {"cpu_seconds", m.bake->cpu_seconds}, {"bytes", m.bake->bytes}};
   if (m.frame_ms) json["frame_ms"] = *m.frame_ms;
-  if (m.live_s) json["live_s"] = *m.live_s;
   if (!m.renderer.empty()) json["renderer"] = m.renderer;
   if (m.texels)
     json["texels"] = {{"count", m.texels->texels},   {"relRMSE", m.texels->rel_rmse}, {"nRMSE", m.texels->n_rmse},

@@ -42,7 +42,6 @@ struct CameraError {
 struct Measures {
   std::optional<BakeCost> bake;
   std::optional<double> frame_ms;  // mean over the cameras
-  std::optional<double> live_s;    // that the light of a moved lamp took, once
   std::string renderer;            // that took them: the OpenGL device; empty for traced frames
   std::optional<TexelError> texels;
   std::vector<CameraError> frames;  // by camera
@@ -73,7 +72,7 @@ Result<TexelError> texel_error(const Pack& pack, const Pack& reference);
 CameraError frame_error_of(const std::string& camera, const Comparison& comparison);
 // The same from what `oriel-play --compare --json` wrote. Error kInvalid.
 Result<CameraError> read_comparison(const std::string& camera, const std::string& json);
-// Sets the mean of the frames' times, the seconds of moved lamps and the renderer from what `oriel-play --stats` wrote.
+// Sets the mean of the frames' times and the renderer from what `oriel-play --stats` wrote.
 // Error kInvalid.
 Status read_frame_times(const std::string& json, Measures& measures);
 // What `oriel-preview --offscreen --stats` wrote: until the frame stood, and a pass of so many pixels, in ms. Error

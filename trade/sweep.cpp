@@ -89,17 +89,14 @@ class Sweep {
     trade_.facts = survey(found, o_.quick ? kQuickCameras : kCameras);
     if (!o_.cameras.empty()) trade_.facts.cameras = o_.cameras;
     const double texel = o_.texel_m > 0 ? o_.texel_m : fitting_texel_m(trade_.facts.diagonal_m);
-    trade_.plan = plan_trade(trade_.facts, texel, o_.quick, o_.move);
+    trade_.plan = plan_trade(trade_.facts, texel, o_.quick);
     return {};
   }
 
   Status measure_all() {
-    references_.clear(), moved_references_.clear();
+    references_.clear();
     for (const std::string& camera : trade_.facts.cameras) {
-      const unsigned paths = trade_.plan.reference_paths;
-      ORIEL_TRY(references_.emplace_back(), render(camera, paths, o_.seed + 1, ""));
-      if (o_.move.empty()) continue;
-      ORIEL_TRY(moved_references_.emplace_back(), render(camera, paths, o_.seed + 1, o_.move));
+      ORIEL_TRY(references_.emplace_back(), render(camera, trade_.plan.reference_paths, o_.seed + 1));
     }
     for (const Configuration& configuration : trade_.plan.configurations) {
       Row row{configuration, {}, {}, {}, {}};
@@ -158,10 +155,9 @@ class Sweep {
 
   Status measure_pack(Row& row) {
     const Configuration& c = row.configuration;
-    const bool texels = !c.moved;
-    ORIEL_TRY(const std::string reference, texels ? texel_reference(c.bake.at("--texel")) : "");
+    ORIEL_TRY(const std::string reference, texel_reference(c.bake.at("--texel")));
     const std::string key = bake_key(c.bake, o_.seed, reference);
-    if (!units_.counting() && texels && !fs::exists(pack(reference))) return {};  // no time for it
+    if (!units_.counting() && !fs::exists(pack(reference))) return {};  // no time for it
     ORIEL_TRY(row.measures,
               units_.once("bake", "bake " + c.name(), key, [&] { return bake(key, c.bake, o_.seed, reference); }));
     if (!trade_.frames || (!units_.counting() && !row.measures.bake)) return {};
@@ -173,7 +169,6 @@ class Sweep {
     }
     if (!played) return tl::unexpected<Error>(played.error());
     row.measures.frame_ms = played->frame_ms;
-    row.measures.live_s = played->live_s;
     row.measures.renderer = played->renderer;
     row.measures.frames = played->frames;
     return {};
@@ -183,10 +178,9 @@ class Sweep {
     const Configuration& c = row.configuration;
     Arguments what{"play", pack_key};
     append(what, c.play);
-    const std::vector<std::string>& references = references_of(c);
-    what.insert(what.end(), references.begin(), references.end());
+    what.insert(what.end(), references_.begin(), references_.end());
     const std::string key = store_.key(what);
-    for (std::size_t i = 0; i < references.size(); ++i) row.pictures.push_back(picture(key, i));
+    for (std::size_t i = 0; i < references_.size(); ++i) row.pictures.push_back(picture(key, i));
     return units_.once("play", "frames of " + c.name(), key, [&] { return play_frames(c, pack_key, key); });
   }
 
@@ -202,13 +196,12 @@ class Sweep {
     ORIEL_TRY_VOID(run_program(timing, log(key), context_.stop));
     ORIEL_TRY(const std::string stats, read_text(numbers));
     ORIEL_TRY_VOID(read_frame_times(stats, measures));
-    const std::vector<std::string>& references = references_of(c);
-    for (std::size_t i = 0; i < references.size(); ++i) {
+    for (std::size_t i = 0; i < references_.size(); ++i) {
       Arguments comparing = common;
       const std::string size =
           fmt::format("{}x{}", kSupersampling * trade_.plan.width, kSupersampling * trade_.plan.height);
       comparing.insert(comparing.end(),
-                       {"--camera", trade_.facts.cameras[i], "--compare", store_.file(references[i], ".exr").string(),
+                       {"--camera", trade_.facts.cameras[i], "--compare", store_.file(references_[i], ".exr").string(),
                         "--size", size, "--json", numbers.string(), "-o", picture(key, i).string()});
       ORIEL_TRY_VOID(run_program(comparing, log(key), context_.stop));
       ORIEL_TRY(const std::string json, read_text(numbers));
@@ -220,18 +213,13 @@ class Sweep {
     return measures;
   }
 
-  const std::vector<std::string>& references_of(const Configuration& c) const {
-    return c.moved ? moved_references_ : references_;
-  }
-
-  // The key of a path-traced frame; made where it is missing. Its time is that of tracing. move: may be empty.
-  Result<std::string> render(const std::string& camera, unsigned paths, std::uint64_t seed, const std::string& move) {
+  // The key of a path-traced frame; made where it is missing. Its time is that of tracing.
+  Result<std::string> render(const std::string& camera, unsigned paths, std::uint64_t seed) {
     const TradePlan& plan = trade_.plan;
     Arguments settings{"--camera",  camera,
                        "--size",    fmt::format("{}x{}", plan.width, plan.height),
                        "--samples", std::to_string(paths),
                        "--seed",    std::to_string(seed)};
-    if (!move.empty()) settings.insert(settings.end(), {"--move", move});
     Arguments what{"render"};
     what.insert(what.end(), settings.begin(), settings.end());
     const std::string key = store_.key(what);
@@ -258,7 +246,7 @@ class Sweep {
     double ms = 0;
     for (std::size_t i = 0; i < references_.size(); ++i) {
       const std::string& camera = trade_.facts.cameras[i];
-      ORIEL_TRY(const std::string frame, render(camera, row.configuration.paths, o_.seed + 2, ""));
+      ORIEL_TRY(const std::string frame, render(camera, row.configuration.paths, o_.seed + 2));
       const std::string key = store_.key({"compare", frame, references_[i]});
       row.pictures.push_back(picture(key, i));
       ORIEL_TRY(const Measures measured,
@@ -343,7 +331,6 @@ class Sweep {
       std::vector<CostError> points;
       std::vector<Row*> rows;
       for (Row& row : trade_.rows) {
-        if (row.configuration.moved) continue;  // held against other frames
         const auto cost = kind.cost_of(row.measures), error = kind.error_of(row.measures);
         if (!cost || !error) continue;
         points.push_back({*cost, *error});
@@ -358,7 +345,7 @@ class Sweep {
   Units& units_;
   Context& context_;
   Trade trade_;
-  std::vector<std::string> references_, moved_references_;  // keys of the reference frames, by camera
+  std::vector<std::string> references_;  // keys of the reference frames, by camera
 };
 
 }  // namespace

@@ -14,7 +14,6 @@ struct TradeOptions {
   double time_s = 0;                   // nothing is started after so long; 0: no limit
   double texel_m = 0;                  // of the default; 0: fitting_texel_m()
   std::vector<std::string> cameras;    // whose frames are judged; empty: chosen by survey()
-  std::string move;                    // of a lamp, NODE=x,y,z: how it is shown there is measured too; empty: none
   std::vector<std::string> forwarded;  // options of every bake and reference frame: light, threads, …
   std::uint64_t seed = 1;              // of the bakes; references take others
 };

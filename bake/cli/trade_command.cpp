@@ -57,9 +57,6 @@ std::vector<Option> sweep_options(trade::TradeOptions& o) {
        "Whose frames are judged, as oriel-play takes it; repeatable. Default: those of the scene that see most of its "
        "reflectors (2 with --quick, else 4), or eyes on its floors",
        texts(o.cameras, "CAMERA"), Use::kEveryday},
-      {"--moved-lamp", kSweep,
-       "Measures too how well and how fast a lamp is shown there, world metres, that was baked where the file has it",
-       text(o.move, "LAMP=x,y,z[,yaw]"), Use::kEveryday},
   };
 }
 

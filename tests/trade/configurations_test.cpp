@@ -24,31 +24,11 @@ std::set<std::string> knobs(const TradePlan& plan) {
   return out;
 }
 
-TEST(Configurations, ShowAMovedLampInEveryWay) {
-  const TradePlan plan = plan_trade(everything(), 0.1, true, "desk lamp=1,2,3");
-  std::size_t moved = 0;
-  for (const Configuration& c : plan.configurations) {
-    EXPECT_EQ(c.moved, c.knob == "moved lamp") << c.name();
-    if (!c.moved) continue;
-    ++moved;
-    const bool anew = c.bake.contains("--move"), live = c.play.contains("--move");
-    EXPECT_EQ(c.bake.contains("--light-groups"), live || c.play.contains("--light")) << c.name();
-    EXPECT_FALSE(anew && live) << c.name();
-    if (c.play.contains("--light")) {
-      EXPECT_EQ(c.play.at("--light"), "desk lamp=off");
-    }
-  }
-  EXPECT_EQ(moved, 4u);
-  for (const Configuration& c : plan_trade(everything(), 0.1, true, "").configurations) {
-    EXPECT_FALSE(c.moved) << c.name();
-  }
-}
-
 TEST(Configurations, WithoutReflectorsAndMoversVaryTheLightAlone) {
   SceneFacts bare;
   bare.cameras = {"0"};
   for (const bool quick : {true, false}) {
-    const TradePlan plan = plan_trade(bare, 0.1, quick, "");
+    const TradePlan plan = plan_trade(bare, 0.1, quick);
     EXPECT_THAT(knobs(plan),
                 ElementsAre("default", "error", "no bake", "reference estimator", "reference paths", "texel"));
     for (const Configuration& c : plan.configurations) {
@@ -61,7 +41,7 @@ TEST(Configurations, WithoutReflectorsAndMoversVaryTheLightAlone) {
 }
 
 TEST(Configurations, OfASceneWithEverythingVaryEveryKnob) {
-  const TradePlan plan = plan_trade(everything(), 0.1, false, "lamp=1,2,3");
+  const TradePlan plan = plan_trade(everything(), 0.1, false);
   EXPECT_THAT(plan.skipped, IsEmpty());
   for (const char* knob :
        {"reflections", "views", "maps", "map resolution", "blur", "sh bands", "mover lights", "shade"})
@@ -70,7 +50,7 @@ TEST(Configurations, OfASceneWithEverythingVaryEveryKnob) {
 
 TEST(Configurations, DifferFromTheDefaultAndFromOneAnother) {
   for (const bool quick : {true, false}) {
-    const TradePlan plan = plan_trade(everything(), 0.1, quick, "");
+    const TradePlan plan = plan_trade(everything(), 0.1, quick);
     EXPECT_EQ(plan.configurations[0].knob, "default");
     std::set<std::string> names;
     std::set<std::tuple<Settings, Settings, Settings, unsigned>> settings;
@@ -80,31 +60,31 @@ TEST(Configurations, DifferFromTheDefaultAndFromOneAnother) {
       EXPECT_FALSE(c.bake.contains("--samples") && c.bake.contains("--error")) << c.name();
     }
   }
-  EXPECT_LT(plan_trade(everything(), 0.1, true, "").configurations.size(),
-            plan_trade(everything(), 0.1, false, "").configurations.size());
+  EXPECT_LT(plan_trade(everything(), 0.1, true).configurations.size(),
+            plan_trade(everything(), 0.1, false).configurations.size());
 }
 
 TEST(Configurations, OfMirrorsOrCurvesAloneLeaveOutWhatTheyDoNotHave) {
   SceneFacts mirrors = everything();
   mirrors.glossy = false;
-  const TradePlan plan = plan_trade(mirrors, 0.1, false, "");
+  const TradePlan plan = plan_trade(mirrors, 0.1, false);
   EXPECT_THAT(knobs(plan), Not(Contains("blur")));
   for (const Configuration& c : plan.configurations) EXPECT_FALSE(c.play.contains("--blur")) << c.name();
   SceneFacts curves = everything();
   curves.planar = false;
-  EXPECT_THAT(knobs(plan_trade(curves, 0.1, false, "")), Not(Contains("views")));
-  EXPECT_THAT(knobs(plan_trade(curves, 0.1, false, "")), Contains("map resolution"));
+  EXPECT_THAT(knobs(plan_trade(curves, 0.1, false)), Not(Contains("views")));
+  EXPECT_THAT(knobs(plan_trade(curves, 0.1, false)), Contains("map resolution"));
 }
 
 // 100 m² are 2500 texels of 20 cm.
 TEST(Configurations, SmallScenesHaveBetterReferences) {
   SceneFacts facts = everything();
-  EXPECT_EQ(plan_trade(facts, 0.1, true, "").reference.at("--samples"), "16384");
+  EXPECT_EQ(plan_trade(facts, 0.1, true).reference.at("--samples"), "16384");
   facts.area_m2 = 1300;
-  EXPECT_EQ(plan_trade(facts, 0.1, true, "").reference.at("--samples"), "1024");
+  EXPECT_EQ(plan_trade(facts, 0.1, true).reference.at("--samples"), "1024");
   for (const double area : {0.0, 1e9}) {
     facts.area_m2 = area;
-    const int samples = std::stoi(plan_trade(facts, 0.1, false, "").reference.at("--samples"));
+    const int samples = std::stoi(plan_trade(facts, 0.1, false).reference.at("--samples"));
     EXPECT_EQ(samples, area == 0 ? 16384 : 512);
   }
 }
