@@ -28,10 +28,6 @@ struct GalleryOptions {
 };
 SampleScene make_gallery(const GalleryOptions& options = {});
 
-// A closed hall of 40 m by 20 m, 6 m high, with 200 columns 2 m apart under eight bright panels: diffuse, 14 thousand
-// triangles, most of its surface in flat charts that are shadowed many times over.
-SampleScene make_colonnade();
-
 // A closed room with curved metal: a mirror ball and a brushed one, both on the floor, and a standing lamp.
 SampleScene make_studio();
 

@@ -25,7 +25,6 @@ struct Arguments {
 
 Result<sample::SampleScene> make_scene(const Arguments& arguments) {
   if (arguments.scene == "classroom") return sample::make_classroom();
-  if (arguments.scene == "colonnade") return sample::make_colonnade();
   if (arguments.scene == "cornell") return sample::make_cornell();
   if (arguments.scene == "gallery") return sample::make_gallery(arguments.gallery);
   if (arguments.scene == "glass") return sample::make_glass();
@@ -88,12 +87,12 @@ ToolCommand sky_command(Arguments& arguments) {
 std::vector<Option> scene_options(Arguments& arguments) {
   return {
       {"SCENE", kArguments,
-       "Which scene: classroom, colonnade (a hall of 200 columns), cornell (the Cornell box), dome (a room in a "
+       "Which scene: classroom, cornell (the Cornell box), dome (a room in a "
        "landscape under a sky dome), gallery (a museum of three rooms), glass (a room with glass bodies), glass-sphere "
        "(the Cornell box with one), house (of two storeys), office, panels (and what else stands little proud of a "
        "wall), room (closed, without a camera), studio (a room with curved metal)",
-       one_of(arguments.scene, {"classroom", "colonnade", "cornell", "dome", "gallery", "glass", "glass-sphere",
-                                "house", "office", "panels", "room", "studio"}),
+       one_of(arguments.scene, {"classroom", "cornell", "dome", "gallery", "glass", "glass-sphere", "house", "office",
+                                "panels", "room", "studio"}),
        Use::kRequired},
       {"-o,--output", kFile, "The .glb file to write", path(arguments.output, "FILE"), Use::kRequired},
       {"--unit", kFile, "Of the file's numbers, which glTF says are metres",
