@@ -14,7 +14,6 @@ enum Air { kRoomA, kRoomB, kRoomC, kDoorAb, kDoorBc, kWindow, kEntrance };
 // Solids.
 enum Solid { kBuilding, kPlatform };
 
-constexpr float kHeight = 3.4f;
 constexpr float kStep = 0.15f;  // rise of a stair
 constexpr int kSteps = 4;       // below the platform
 
@@ -22,9 +21,9 @@ std::vector<Block> building() {
   std::vector<Block> blocks = {
       {{-0.2f, -0.2f, -0.2f}, {12.4f, 3.6f, 8.2f}, true, kBuilding},
       {{6.0f, -0.2f, -8.4f}, {12.4f, 3.6f, 0}, true, kBuilding},
-      {{0, 0, 0}, {6, kHeight, 8}, false, kRoomA},
-      {{6.2f, 0, 0}, {12.2f, kHeight, 8}, false, kRoomB},
-      {{6.2f, 0, -8.2f}, {12.2f, kHeight, -0.2f}, false, kRoomC},
+      {{0, 0, 0}, {6, kGalleryHeight, 8}, false, kRoomA},
+      {{6.2f, 0, 0}, {12.2f, kGalleryHeight, 8}, false, kRoomB},
+      {{6.2f, 0, -8.2f}, {12.2f, kGalleryHeight, -0.2f}, false, kRoomC},
       {{6, 0, 2.7f}, {6.2f, 2.4f, 4.5f}, false, kDoorAb},
       {{8.2f, 0, -0.2f}, {10, 2.4f, 0}, false, kDoorBc},
       {{12.2f, 0.9f, 1}, {12.4f, 2.5f, 3.4f}, false, kWindow},
@@ -130,11 +129,11 @@ void add_lights(SampleScene& scene) {
   add_quad(light, {Vec3(-half.x, below, -half.y), Vec3(2 * half.x, 0, 0), Vec3(0, 0, 2 * half.y)});
   const std::uint32_t housing_mesh = add_mesh(scene, std::move(housing)),
                       light_mesh = add_mesh(scene, std::move(light));
-  const std::array<std::pair<const char*, Vec3>, 5> places{{{"A luminaire 1", Vec3(3, kHeight, 1.4f)},
-                                                            {"A luminaire 2", Vec3(3, kHeight, 4)},
-                                                            {"A luminaire 3", Vec3(3, kHeight, 6.6f)},
-                                                            {"B luminaire 1", Vec3(8.6f, kHeight, 2.2f)},
-                                                            {"B luminaire 2", Vec3(9.2f, kHeight, 6)}}};
+  const std::array<std::pair<const char*, Vec3>, 5> places{{{"A luminaire 1", Vec3(3, kGalleryHeight, 1.4f)},
+                                                            {"A luminaire 2", Vec3(3, kGalleryHeight, 4)},
+                                                            {"A luminaire 3", Vec3(3, kGalleryHeight, 6.6f)},
+                                                            {"B luminaire 1", Vec3(8.6f, kGalleryHeight, 2.2f)},
+                                                            {"B luminaire 2", Vec3(9.2f, kGalleryHeight, 6)}}};
   for (const auto& [name, position] : places) {
     place(scene, housing_mesh, std::string(name) + " housing", position);
     place(scene, light_mesh, std::string(name) + " panel", position);

@@ -7,8 +7,7 @@
 namespace oriel::sample {
 namespace {
 
-constexpr float kItemHeight = 3.4f;  // of the rooms
-constexpr float kSunk = 0.01f;       // m: how far things reach into what they stand on or hang from
+constexpr float kSunk = 0.01f;  // m: how far things reach into what they stand on or hang from
 constexpr float kHalfTurn = kPi, kQuarterTurn = kPi / 2;
 
 }  // namespace
@@ -17,7 +16,7 @@ void add_columns(SampleScene& scene, std::uint32_t stone) {
   const std::uint32_t marble = add_diffuse(scene, "marble", Vec3(0.72f, 0.70f, 0.66f));
   SampleMesh shaft{"column shaft", marble};
   FlutedShaft shape;
-  shape.height = kItemHeight - 0.30f - 0.24f;
+  shape.height = kGalleryHeight - 0.30f - 0.24f;
   add_fluted_shaft(shaft, Vec3(0, 0.24f, 0), shape);
   SampleMesh ends{"column ends", stone};
   add_box(ends, Vec3(-0.31f, -kSunk, -0.31f), Vec3(0.31f, 0.10f, 0.31f), kSides | kTop);
@@ -32,15 +31,16 @@ void add_columns(SampleScene& scene, std::uint32_t stone) {
   base.emplace_back(0.19f, 0.25f);
   base.insert(base.begin(), Vec2(0.245f, 0.095f));
   add_lathe(ends, Vec3(0), base, 48);
-  std::vector<Vec2> echinus{Vec2(0.16f, kItemHeight - 0.32f), Vec2(0.21f, kItemHeight - 0.32f),
-                            Vec2(0.21f, kItemHeight - 0.29f)};
+  std::vector<Vec2> echinus{Vec2(0.16f, kGalleryHeight - 0.32f), Vec2(0.21f, kGalleryHeight - 0.32f),
+                            Vec2(0.21f, kGalleryHeight - 0.29f)};
   for (int i = 0; i <= 8; ++i) {
     const float t = static_cast<float>(i) / 8.0f;
-    echinus.emplace_back(0.20f + 0.09f * std::sin(t * kPi / 2), kItemHeight - 0.28f + 0.16f * t * t);
+    echinus.emplace_back(0.20f + 0.09f * std::sin(t * kPi / 2), kGalleryHeight - 0.28f + 0.16f * t * t);
   }
-  echinus.emplace_back(0.27f, kItemHeight - 0.09f);
+  echinus.emplace_back(0.27f, kGalleryHeight - 0.09f);
   add_lathe(ends, Vec3(0), echinus, 48);
-  add_box(ends, Vec3(-0.30f, kItemHeight - 0.10f, -0.30f), Vec3(0.30f, kItemHeight + kSunk, 0.30f), kSides | kBottom);
+  add_box(ends, Vec3(-0.30f, kGalleryHeight - 0.10f, -0.30f), Vec3(0.30f, kGalleryHeight + kSunk, 0.30f),
+          kSides | kBottom);
 
   const std::uint32_t shaft_mesh = add_mesh(scene, std::move(shaft)), ends_mesh = add_mesh(scene, std::move(ends));
   const std::array<std::pair<const char*, Vec3>, 6> places{{{"A column 1", Vec3(1.3f, 0, 2)},

@@ -7,6 +7,8 @@
 
 namespace oriel::sample {
 
+inline constexpr float kGalleryHeight = 3.4f;  // of the rooms
+
 // Four in room A, two in room C.
 void add_columns(SampleScene& scene, std::uint32_t stone);
 void add_pictures(SampleScene& scene, std::uint32_t frame);

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "formats/core/glb.h"
+
 namespace oriel::gltf {
 namespace {
-
-constexpr std::uint32_t kGlbMagic = 0x46546C67;   // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
-constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN\0"
 
 Result<Container> split_glb(std::span<const std::byte> bytes, const std::string& file) {
   ByteReader header(bytes);
@@ -35,12 +33,12 @@ Result<Container> split_glb(std::span<const std::byte> bytes, const std::string&
       return invalid(where, "found a chunk of {} bytes, expected at most the {} that are left", size,
                      reader.remaining());
     const auto data = bytes.subspan(at + 8, size);
-    if (chunk == 0 && type != kJsonChunk) return invalid(where, "found chunk type {:#010x}, expected JSON first", type);
-    if (chunk > 0 && type == kJsonChunk) return invalid(where, "found a second JSON chunk, expected one");
-    if (type == kJsonChunk && size == 0) return invalid(where, "found an empty JSON chunk, expected a JSON object");
-    if (type == kJsonChunk) parts.json = data;
-    if (type == kBinChunk && parts.binary) return invalid(where, "found a second BIN chunk, expected at most one");
-    if (type == kBinChunk) parts.binary = data;
+    if (chunk == 0 && type != kGlbJson) return invalid(where, "found chunk type {:#010x}, expected JSON first", type);
+    if (chunk > 0 && type == kGlbJson) return invalid(where, "found a second JSON chunk, expected one");
+    if (type == kGlbJson && size == 0) return invalid(where, "found an empty JSON chunk, expected a JSON object");
+    if (type == kGlbJson) parts.json = data;
+    if (type == kGlbBinary && parts.binary) return invalid(where, "found a second BIN chunk, expected at most one");
+    if (type == kGlbBinary) parts.binary = data;
     at += 8 + size;
   }
   if (parts.json.empty()) return invalid(file, "found no chunk, expected a JSON chunk after the GLB header");

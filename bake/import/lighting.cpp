@@ -6,6 +6,7 @@
 #include "bake/scene/ldt.h"
 #include "bake/scene/sky.h"
 #include "formats/core/file.h"
+#include "formats/core/half.h"
 #include "formats/core/hash.h"
 #include "formats/core/text.h"
 
@@ -15,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float kMostRadiance = 1e30f;
-constexpr float kLargestHalf = 65504;  // what an infinite texel stands for: it did not fit into 16 bits
 
 // The file's bytes; its hash goes into `inputs`.
 Result<Bytes> read_input(const fs::path& path, gltf::MemoryBudget& budget, ImportedScene& out) {
@@ -38,7 +38,7 @@ void clean(SkyImage& image, float scale, const std::string& name, Context& conte
         value = 0;
       } else if (std::isinf(value)) {
         ++infinities;
-        value = kLargestHalf;
+        value = kHalfMax;  // it did not fit into 16 bits
       }
       value = std::min(value * scale, kMostRadiance);
     }
@@ -46,7 +46,7 @@ void clean(SkyImage& image, float scale, const std::string& name, Context& conte
     context.warning(fmt::format("{}: found {} values that are not a number and {} negative ones, taken as 0", name,
                                 nans, negatives));
   if (infinities > 0)
-    context.warning(fmt::format("{}: found {} infinite values, taken as {}", name, infinities, kLargestHalf));
+    context.warning(fmt::format("{}: found {} infinite values, taken as {}", name, infinities, kHalfMax));
 }
 
 Status load_sky(const ImportOptions& options, gltf::MemoryBudget& budget, ImportedScene& out, Context& context) {

@@ -10,10 +10,8 @@
 namespace oriel {
 namespace {
 
-constexpr int kMaxReflectedLayers = 64;    // of transmitting surfaces before the first opaque one
-constexpr float kImage = 0.5f;             // reflectance from which depth is that of the mirror's image
-constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
-constexpr float kBackdrop = 1e-3f;         // of the scene's diagonal: how far outside its bounds a plain sky stands
+constexpr float kImage = 0.5f;      // reflectance from which depth is that of the mirror's image
+constexpr float kBackdrop = 1e-3f;  // of the scene's diagonal: how far outside its bounds a plain sky stands
 
 }  // namespace
 
@@ -47,12 +45,12 @@ class ReflectedSurroundings::Walk {
         start_(from.origin) {
     // Coordinates' rounding near the reflector, and how far its triangles bulge from its plane.
     const Reflector& r = left_->reflector;
-    step_ = kStep * (max_component(glm::abs(Vec3(r.pack_from_reflector[3]))) + glm::length(r.upper - r.lower));
+    step_ = kSightStep * (max_component(glm::abs(Vec3(r.pack_from_reflector[3]))) + glm::length(r.upper - r.lower));
     ray_ = {from.origin + step_ * Vec3(r.pack_from_reflector[2]), from.direction};
   }
 
   Sight run() {
-    for (int layer = 0; layer < kMaxReflectedLayers; ++layer) {
+    for (int layer = 0; layer < kMostSightLayers; ++layer) {
       const Hit hit = in_.accel_.intersect(ray_);
       ++sight_.rays;
       if (!hit) return leave();
@@ -60,7 +58,7 @@ class ReflectedSurroundings::Walk {
       const bool own = hit.triangle == last_ || is_among(scene_, left_->triangles, hit.triangle);
       if (!own && meets(hit, p)) return sight_;
       last_ = hit.triangle;
-      ray_.origin = p + ray_.direction * (kStep * (max_component(glm::abs(p)) + step_) + 1e-7f * hit.distance);
+      ray_.origin = p + ray_.direction * (kSightStep * (max_component(glm::abs(p)) + step_) + 1e-7f * hit.distance);
     }
     if (!depth_known_) sight_.state = Sight::kNothing;  // nothing opaque within reason
     return sight_;

@@ -21,6 +21,10 @@ inline void fields(Archive& archive, SightOptions& o) {
   archive(o.orders, o.max_chain_roughness, o.min_chain_reflectance);
 }
 
+inline constexpr int kMostSightLayers = 64;  // of surfaces before the first opaque one
+// By which rays leave surfaces, relative to the size of coordinates.
+inline constexpr float kSightStep = 1.0f / (1 << 20);
+
 // A surface on the way of a ray.
 struct SeenSurface {
   const Hit& hit;

@@ -9,9 +9,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kMaxSurroundLayers = 64;  // of surfaces before the first opaque one
 constexpr float kNearest = 1e-3f;       // of the object's size: a surface through the very centre has no distance
-constexpr float kSurroundStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
 constexpr float kAtBounds = 1 - 1e-4f;  // of the way out of the bounds: what the object stands on is not in it
 
 }  // namespace
@@ -34,7 +32,7 @@ SurroundSight SurroundRays::look(const Vec3& direction, float farthest) {
     if (sight.valid == 0) return sight;
   }
   std::uint32_t last = ~0u;
-  for (int layer = 0; layer < kMaxSurroundLayers; ++layer) {
+  for (int layer = 0; layer < kMostSightLayers; ++layer) {
     const Hit hit = accel_.intersect(ray);
     ++count_;
     if (!hit) return sight;
@@ -51,7 +49,7 @@ SurroundSight SurroundRays::look(const Vec3& direction, float farthest) {
     const bool all_known = view_ != SurroundView::kOutside || glm::length(p - centre_) >= bounds_end;
     if (sight.ended && all_known) return sight;
     last = hit.triangle;
-    ray.origin = p + direction * (kSurroundStep * max_component(glm::abs(p)) + 1e-6f * hit.distance);
+    ray.origin = p + direction * (kSightStep * max_component(glm::abs(p)) + 1e-6f * hit.distance);
   }
   if (!sight.ended) sight.valid = 0;  // nothing opaque within reason
   return sight;

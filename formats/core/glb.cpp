@@ -59,7 +59,6 @@ std::size_t Glb::add_image(const std::string& name, std::span<const std::byte> b
 }
 
 Result<Bytes> Glb::file() const {
-  constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
   const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
   const std::size_t binary = padded(binary_.bytes().size());
   Json whole = json;
@@ -68,15 +67,15 @@ Result<Bytes> Glb::file() const {
   text.resize(padded(text.size()), ' ');
   const std::size_t total = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
   if (total > 0xffffffff) return invalid("", "the scene takes {} bytes as .glb, expected less than 2^32", total);
-  std::vector<std::uint32_t> words = {kMagic, 2, static_cast<std::uint32_t>(total),
-                                      static_cast<std::uint32_t>(text.size()), kJsonChunk};
+  std::vector<std::uint32_t> words = {kGlbMagic, 2, static_cast<std::uint32_t>(total),
+                                      static_cast<std::uint32_t>(text.size()), kGlbJson};
   Bytes out;
   out.reserve(total);
   const auto append = [&](std::span<const std::byte> bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); };
   append(std::as_bytes(std::span(words)));
   append(std::as_bytes(std::span(text)));
   if (binary == 0) return out;
-  words = {static_cast<std::uint32_t>(binary), kBinaryChunk};
+  words = {static_cast<std::uint32_t>(binary), kGlbBinary};
   append(std::as_bytes(std::span(words)));
   append(binary_.bytes());
   out.resize(total);

@@ -11,6 +11,9 @@
 
 namespace oriel {
 
+// The words of its header and of its chunks' headers: "glTF", "JSON", "BIN\0".
+enum GlbWord : std::uint32_t { kGlbMagic = 0x46546C67, kGlbJson = 0x4E4F534A, kGlbBinary = 0x004E4942 };
+
 class Glb {
  public:
   // glTF 2.0, 3.6.2.2 and 5.11.5.

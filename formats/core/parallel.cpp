@@ -39,4 +39,11 @@ void for_each_parallel(std::size_t count, std::size_t threads, const std::functi
   if (thrown) std::rethrow_exception(thrown);
 }
 
+void for_each_run(std::size_t count, std::size_t threads,
+                  const std::function<void(std::size_t first, std::size_t end)>& body) {
+  constexpr std::size_t kRun = 512;
+  for_each_parallel((count + kRun - 1) / kRun, threads,
+                    [&](std::size_t run) { body(run * kRun, std::min(count, (run + 1) * kRun)); });
+}
+
 }  // namespace oriel

@@ -15,16 +15,14 @@ constexpr std::uint32_t kNoRow = BouncedLight::kNone;
 constexpr std::uint32_t kMostRays = 64, kFewestRays = 8;  // of a texel
 constexpr std::size_t kMostInAll = std::size_t{1} << 25;  // of 4 bytes each
 constexpr std::uint32_t kPlaces = 8;                      // of a texel, whose reflectance is the mean
-constexpr std::size_t kRun = 256;                         // rows that a thread takes at once
 constexpr int kFarthest = 2;                              // texels, from where light was met to one that has some
 constexpr float kSamePlane = 0.95f;                       // cosine between normals of neighbours
 constexpr float kAlike = 0.5f;     // cosine between normals of the place where a ray ends and of a texel beside it
 constexpr float kOffPlane = 0.1f;  // of their distance
 
 void for_rows(std::size_t rows, const std::atomic<bool>* stop, const std::function<void(std::size_t)>& each) {
-  for_each_parallel((rows + kRun - 1) / kRun, core_count(), [&](std::size_t run) {
-    if (stop != nullptr && *stop) return;
-    for (std::size_t row = run * kRun; row < std::min(rows, (run + 1) * kRun); ++row) each(row);
+  for_each_run(rows, core_count(), [&](std::size_t first, std::size_t end) {
+    for (std::size_t row = first; row < end && !(stop != nullptr && *stop); ++row) each(row);
   });
 }
 

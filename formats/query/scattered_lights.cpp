@@ -148,9 +148,8 @@ void ScatterSources::add_texels(const ScatteredScene& in) {
       part_of.push_back(point.part), point_of.push_back(&point);
     }
   const std::vector<float> factors = area_factors(mesh, part_of, areas);
-  constexpr std::size_t kRun = 4096;
-  for_each_parallel((sources_.size() + kRun - 1) / kRun, core_count(), [&](std::size_t run) {
-    for (std::size_t i = run * kRun; i < std::min(sources_.size(), (run + 1) * kRun); ++i) {
+  for_each_run(sources_.size(), core_count(), [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
       const PagePoint& point = *point_of[i];
       Source& source = sources_[i];
       source.area = areas[i] * factors[part_of[i]];

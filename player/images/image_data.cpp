@@ -142,25 +142,20 @@ HalfPage half_page(const LightmapPage& page) {
 }
 
 HalfPage relit(const HalfPage& baked, const PageGroups& groups, std::span<const Vec3> factors) {
-  constexpr std::size_t kRun = 4096;
   HalfPage out = baked;
   float most = 1;
   for (const Vec3& factor : factors) most = std::max(most, max_component(factor));
   out.scale = baked.scale * std::exp2(std::ceil(std::log2(most)));
   const float inverse = out.scale > 0 ? 1 / out.scale : 0.0f;
-  const auto run = [&](bool details, std::size_t first, std::vector<Half4>& light) {
-    std::vector<Vec3> whole(std::min(kRun, light.size() - first));
-    for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = floats_of(light[first + i]) * baked.scale;
-    relight(groups, details, factors, first, whole);
-    for (std::size_t i = 0; i < whole.size(); ++i) light[first + i] = halves_of(whole[i], inverse);
-  };
-  const std::size_t runs = (out.light.size() + kRun - 1) / kRun;
-  for_each_parallel(runs + (out.detail.size() + kRun - 1) / kRun, core_count(), [&](std::size_t i) {
-    if (i < runs)
-      run(false, i * kRun, out.light);
-    else
-      run(true, (i - runs) * kRun, out.detail);
-  });
+  for (const bool details : {false, true}) {
+    std::vector<Half4>& light = details ? out.detail : out.light;
+    for_each_run(light.size(), core_count(), [&](std::size_t first, std::size_t end) {
+      std::vector<Vec3> whole(end - first);
+      for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = floats_of(light[first + i]) * baked.scale;
+      relight(groups, details, factors, first, whole);
+      for (std::size_t i = 0; i < whole.size(); ++i) light[first + i] = halves_of(whole[i], inverse);
+    });
+  }
   return out;
 }
 

@@ -8,7 +8,6 @@ namespace oriel {
 namespace {
 
 constexpr float kDark = 1e-3f;        // lux: what is reflected of less says little of the surface
-constexpr std::size_t kRun = 4096;    // pixels that a thread takes at once
 constexpr unsigned kThreadsAMap = 2;  // of one map; several are made at once
 
 bool has_page(const MapLights& lights, std::size_t page) {
@@ -18,8 +17,8 @@ bool has_page(const MapLights& lights, std::size_t page) {
 template <class Map>
 void shine_all(const MapLights& lights, const std::vector<SeenPlace>& places, const Vec3& mean, Map& map) {
   const std::size_t count = std::min(places.size(), map.radiance.size());
-  for_each_parallel((count + kRun - 1) / kRun, kThreadsAMap, [&](std::size_t run) {
-    for (std::size_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i)
+  for_each_run(count, kThreadsAMap, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i)
       if (map.valid[i] != 0) map.radiance[i] = light_now(map.radiance[i], places[i], lights, mean);
   });
 }
@@ -40,9 +39,8 @@ void uncover(const MapLights& lights, const SeenPixels& seen, Map& map) {
 template <class Map, class RayOf>
 void show(std::span<const MovedLamp* const> lamps, const RayOf& ray_of, Map& map) {
   if (lamps.empty()) return;
-  const std::size_t count = map.radiance.size();
-  for_each_parallel((count + kRun - 1) / kRun, kThreadsAMap, [&](std::size_t run) {
-    for (std::size_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) {
+  for_each_run(map.radiance.size(), kThreadsAMap, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
       if (map.valid[i] == 0) continue;
       SeenRay ray = ray_of(i);
       for (const MovedLamp* lamp : lamps)

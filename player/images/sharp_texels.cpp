@@ -8,8 +8,6 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kPointsAtOnce = 1024;  // points that a thread takes at once
-
 Vec3 share_of(const Vec3& now, const Vec3& once, const Vec3& elsewhere) {
   Vec3 share = elsewhere;
   for (int c = 0; c < 3; ++c)
@@ -24,8 +22,8 @@ std::vector<Vec3> sharp_at_points(const SharpLight& light, const LightmapPage& p
   if (page.sharp_at.empty()) return {};
   std::vector<Vec3> out(points.size());
   const Vec2 size(page.width, page.height);
-  for_each_parallel((points.size() + kPointsAtOnce - 1) / kPointsAtOnce, core_count(), [&](std::size_t run) {
-    for (std::size_t k = run * kPointsAtOnce; k < std::min(points.size(), (run + 1) * kPointsAtOnce); ++k)
+  for_each_run(points.size(), core_count(), [&](std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k)
       out[k] =
           sharp_irradiance(light, page, {(points[k].at + 0.5f) / size, points[k].position, points[k].normal}, factors);
   });

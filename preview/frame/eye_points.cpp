@@ -2,13 +2,9 @@
 
 #include "bake/trace/rounded.h"
 #include "bake/trace/sampler.h"
+#include "preview/frame/streams.h"
 
 namespace oriel {
-namespace {
-
-constexpr std::uint64_t kEyeStream = 0x657965;
-
-}  // namespace
 
 EyePoint eye_point(const SeenPoints& seen, std::size_t pixel, const Accel& accel) {
   SurfacePoint s = point_on_side(accel.scene(), static_cast<std::uint32_t>(seen.place[pixel].w) - 1, Vec2(0));

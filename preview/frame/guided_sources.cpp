@@ -7,11 +7,11 @@
 #include "bake/trace/punctual.h"
 #include "bake/trace/warp.h"
 #include "preview/frame/particle_walk.h"
+#include "preview/frame/streams.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::uint64_t kGuideStream = 0x696d706f;
 constexpr float kUnguided = 0.25f;  // share of particles
 constexpr std::size_t kMostGuides = 256;
 constexpr int kBounces = 4;        // that the eye's paths take

@@ -12,6 +12,7 @@
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
+#include "preview/frame/streams.h"
 
 namespace oriel {
 namespace {
@@ -20,7 +21,6 @@ constexpr std::uint32_t kSky = ~0u;
 // How far points are off their lamp, in radii of the scene: the lamp's own triangles then lie behind them. A place
 // without size is moved as far aside, so that no edge lies exactly in a plane with eye and light.
 constexpr float kOff = 1e-5f;
-constexpr std::uint64_t kNearStream = 1, kFarStream = 2, kShareStream = std::uint64_t{1} << 41;
 constexpr double kByPower = 0.1;                                                   // of points
 constexpr std::size_t kCellsAcross = 16, kSkyCells = kCellsAcross * kCellsAcross;  // of the sky, that shares tell apart
 

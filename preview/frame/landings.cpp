@@ -4,11 +4,11 @@
 
 #include "bake/jobs/parallel.h"
 #include "preview/frame/particle_walk.h"
+#include "preview/frame/streams.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::uint64_t kLandingStream = 0x656c656d;
 constexpr int kMostBounces = 64;
 constexpr std::uint32_t kParticles = 2048, kParticlesATask = 64;  // of a kind of source, and of a task
 

@@ -5,12 +5,12 @@
 
 #include "bake/trace/sampler.h"
 #include "player/gpu/raster_state.h"
+#include "preview/frame/streams.h"
 
 namespace oriel {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::uint64_t kPixelStream = 0x706978;
 constexpr std::uint32_t kLampEyes = 48;      // points that the eye sees, by which lamps share points
 constexpr std::size_t kElementsOfPass = 36;  // four for each of 3 x 3 pixels
 

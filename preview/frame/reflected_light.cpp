@@ -5,11 +5,11 @@
 #include "bake/trace/sampler.h"
 #include "formats/core/color.h"
 #include "preview/frame/elements.h"
+#include "preview/frame/streams.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::uint64_t kReflectionStream = 0x72656673;
 constexpr std::uint32_t kEyePoints = 512;               // from which light is followed backwards
 constexpr std::size_t kImportant = 16, kShadowed = 32;  // of those, that tell which landings and which elements matter
 

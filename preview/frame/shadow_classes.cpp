@@ -3,12 +3,12 @@
 #include <utility>
 
 #include "bake/trace/sampler.h"
+#include "preview/frame/streams.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::size_t kMostLamps = 64;  // that are remembered: of more of them each gets few points
-constexpr std::uint64_t kClassStream = 0x636c617373;
+constexpr std::size_t kMostLamps = 64;      // that are remembered: of more of them each gets few points
 constexpr std::uint32_t kFewestPoints = 8;  // of a lamp, before a block is believed
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/trace/rounded.h"
 #include "bake/trace/warp.h"
+#include "preview/frame/streams.h"
 
 namespace oriel {
 namespace {
@@ -127,7 +128,6 @@ class SpecularTracer {
 
 Result<TracedLight> trace_specular(const PreviewScene& scene, const TracedFrame& frame, std::uint32_t pass,
                                    Context& context) {
-  constexpr std::uint64_t kStream = std::uint64_t{1} << 40;
   const auto width = static_cast<std::size_t>(frame.seen.width);
   TracedLight out{std::vector<Vec4>(frame.seen.place.size(), Vec4(0)), 0};
   std::atomic<std::size_t> traced{0};
@@ -136,7 +136,7 @@ Result<TracedLight> trace_specular(const PreviewScene& scene, const TracedFrame&
     std::size_t count = 0;
     for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
       if (frame.seen.place[i].w == 0 || frame.seen.normal[i].w < 0.5f) continue;
-      Sampler sampler(context.seed, kStream + i, pass);
+      Sampler sampler(context.seed, kTracedStream + i, pass);
       const Vec3 light = tracer.pixel(i, sampler);
       if (is_usable(light)) out.light[i] = Vec4(light, 1);
       ++count;
