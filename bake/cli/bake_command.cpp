@@ -101,10 +101,6 @@ void print_omissions(const std::vector<Warning>& omissions, BakeSession& session
 void print_result(const BakeResult& result, BakeSession& session) {
   print_omissions(result.omissions, session);
   session.note(light_line(result.radiosity));
-  if (const MapReuse& reuse = result.map_reuse; reuse.kept > 0)
-    session.note(fmt::format(
-        "radiance maps: {} of {} bands keep the pixels of the bake before, with {:.2g} % of error in all of them",
-        reuse.kept, reuse.bands, 100 * reuse.error));
   if (result.ledger.emitted_lm() > 0) session.note(ledger_line(result.ledger));
 }
 

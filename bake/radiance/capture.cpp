@@ -36,14 +36,6 @@ SeenLight see(const LitSurroundings& lit, std::uint32_t reflector, const Vec3& f
   return seen;
 }
 
-namespace {
-
-constexpr std::uint32_t kRowsABand = 32;
-constexpr double kRaysAMapBand =
-    1 << 17;  // about, many pixels see by way of lobes: a unit of its own (bake/jobs/units.cpp)
-
-}  // namespace
-
 CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at) {
   const Vec3 q(map_point(map, at), 0);
   const Mat3 to_pack(reflector.pack_from_reflector);
@@ -55,17 +47,32 @@ CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const
   return {pack_from_reflector(reflector, q), glm::normalize(to_pack * (way / distance)), {width, width / distance}};
 }
 
-MapPixel capture_pixel(const LitSurroundings& lit, const RadianceMap& map, std::uint32_t x, std::uint32_t y,
-                       std::uint64_t& rays) {
+namespace {
+
+constexpr std::uint32_t kRowsABand = 32;
+constexpr double kRaysAMapBand =
+    1 << 17;  // about, many pixels see by way of lobes: a unit of its own (bake/jobs/units.cpp)
+
+// Some rows of a map: a unit of work.
+struct MapBand {
+  std::uint32_t map = 0, first_row = 0, rows = 0;
+};
+
+void capture_pixel(const LitSurroundings& lit, std::uint32_t x, std::uint32_t y, RadianceMap& map,
+                   std::uint64_t& rays) {
   const Reflector& reflector = lit.around.reflectors()[map.reflector].reflector;
   const CaptureRay ray = capture_ray(reflector, map, Vec2(x, y) + 0.5f);
   const auto [sight, light, traced] = see(lit, map.reflector, ray.from, ray.direction, ray.cone);
   rays += traced;
   const bool has_depth = sight.state == Sight::kSurface || sight.back;
   const float height = std::max(0.0f, glm::dot(sight.offset, Vec3(reflector.pack_from_reflector[2])));
-  return {light, has_depth ? disparity_of(map, height) : 0, static_cast<std::uint8_t>(sight.state)};
+  const std::size_t at = std::size_t{y} * map.width + x;
+  map.radiance[at] = light;
+  map.disparity[at] = has_depth ? disparity_of(map, height) : 0;
+  map.valid[at] = static_cast<std::uint8_t>(sight.state);
 }
 
+// The maps in bands, with room for their pixels.
 std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::vector<RadianceMap>& maps) {
   std::vector<MapBand> bands;
   for (std::uint32_t i = 0; i < maps.size(); ++i) {
@@ -82,21 +89,20 @@ std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::
   return bands;
 }
 
-UnitLoop capture_loop(const LitSurroundings& lit, const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps) {
+}  // namespace
+
+Status capture_maps(const LitSurroundings& lit, const Stage& stage, std::vector<RadianceMap>& maps) {
+  const std::vector<MapBand> bands = make_bands(lit.around, maps);
   UnitLoop loop{.stage = "radiance", .count = bands.size(), .rays = kRaysAMapBand};
   loop.inputs = [&](std::size_t i, Archive& key) {
     key(frame_of(maps[bands[i].map]), bands[i].first_row, bands[i].rows);
   };
-  loop.compute = [&, lit](std::size_t i) {
+  loop.compute = [&](std::size_t i) {
     const MapBand& band = bands[i];
     RadianceMap& map = maps[band.map];
     std::uint64_t rays = 0;
     for (std::uint32_t y = band.first_row; y < band.first_row + band.rows; ++y)
-      for (std::uint32_t x = 0; x < map.width; ++x) {
-        const MapPixel pixel = capture_pixel(lit, map, x, y, rays);
-        const std::size_t at = std::size_t{y} * map.width + x;
-        map.radiance[at] = pixel.radiance, map.disparity[at] = pixel.disparity, map.valid[at] = pixel.valid;
-      }
+      for (std::uint32_t x = 0; x < map.width; ++x) capture_pixel(lit, x, y, map, rays);
     return rays;
   };
   loop.results = [&](std::size_t i, Archive& archive) {
@@ -106,12 +112,7 @@ UnitLoop capture_loop(const LitSurroundings& lit, const std::vector<MapBand>& ba
     archive(std::span(map.radiance).subspan(first, count), std::span(map.disparity).subspan(first, count),
             std::span(map.valid).subspan(first, count));
   };
-  return loop;
-}
-
-Status capture_maps(const LitSurroundings& lit, const Stage& stage, std::vector<RadianceMap>& maps) {
-  const std::vector<MapBand> bands = make_bands(lit.around, maps);
-  return parallel_units(stage, capture_loop(lit, bands, maps));
+  return parallel_units(stage, loop);
 }
 
 }  // namespace oriel

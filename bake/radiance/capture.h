@@ -30,31 +30,12 @@ struct SeenLight {
 SeenLight see(const LitSurroundings& lit, std::uint32_t reflector, const Vec3& from, const Vec3& direction,
               const Cone& cone = {});
 
-// A pixel of a radiance map, as its members have it.
-struct MapPixel {
-  Vec3 radiance{0};
-  float disparity = 0;
-  std::uint8_t valid = 0;
-};
 // The ray of a place of a map, in pixels: from the plane, scene space; with what a pixel there shows.
 struct CaptureRay {
   Vec3 from{0}, direction{0};
   Cone cone;
 };
 CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at);
-// What capture_maps() has for a pixel. Adds to `rays`.
-MapPixel capture_pixel(const LitSurroundings& lit, const RadianceMap& map, std::uint32_t x, std::uint32_t y,
-                       std::uint64_t& rays);
-
-// Some rows of a map: a unit of work.
-struct MapBand {
-  std::uint32_t map = 0, first_row = 0, rows = 0;
-};
-// The maps in bands, with room for their pixels.
-std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::vector<RadianceMap>& maps);
-// Captures those bands. All must outlive it.
-UnitLoop capture_loop(const LitSurroundings& lit, const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps);
-
 // Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): depth and light are those of the
 // ray through a pixel's centre; textures of what it ends on are means over what the pixel shows of them (its cone,
 // after Akenine-Möller et al. 2021), so that fine ones do not alias and colour and depth still belong together. Both as

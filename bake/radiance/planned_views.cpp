@@ -16,8 +16,6 @@ constexpr double kWorthDividing = 0.02;       // by which all must be worth more
 constexpr double kPriceStep = 1.1;            // by which the price rises until maps fit memory,
 constexpr double kLeastPrice = 1e-12;         // from this at least
 constexpr std::uint32_t kMostShares = 4;      // of options.samples for one reflector
-// A known plan is kept where what it shows now, as shares, is less by no more than that.
-constexpr double kSeenLess = 0.002, kSharpLess = 0.01;
 
 std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const Element& window,
                                  std::span<const ReflectedSample> samples, const PlannedViewOptions& options) {
@@ -59,27 +57,14 @@ class Planner {
     if (options.map_resolution > 0) options_.choice.resolutions = {options.map_resolution};
   }
 
-  // The known plan, where it holds still; else none.
-  Result<std::optional<ReflectorPlan>> take_known(std::uint32_t reflector, const KnownPlan& known) {
-    bool still = false;
-    ORIEL_TRY_VOID(one_unit(
-        context_, "known views",
-        [&](Archive& key) {
-          add_inputs(reflector, key);
-          key(known);
-        },
-        [&]() -> Status {
-          ORIEL_TRY(still, holds(reflector, known.plan));
-          return {};
-        },
-        [&](Archive& archive) { archive(still); }));
-    return still ? std::optional(known.plan) : std::nullopt;
-  }
-
   Result<ReflectorPlan> find_or_plan(std::uint32_t reflector) {
     ReflectorPlan made;
     ORIEL_TRY_VOID(one_unit(
-        context_, "views", [&](Archive& key) { add_inputs(reflector, key); },
+        context_, "views",
+        [&](Archive& key) {
+          key(reflector, asked_.eyes, asked_.choice, asked_.element_m, asked_.samples, asked_.hemisphere,
+              asked_.mirrored_eyes, asked_.max_elements, asked_.map_resolution, asked_.pixel_price);
+        },
         [&]() -> Status {
           ORIEL_TRY(made, plan(reflector));
           return {};
@@ -89,12 +74,6 @@ class Planner {
   }
 
  private:
-  // What plans are functions of, beside the stage's inputs.
-  void add_inputs(std::uint32_t reflector, Archive& key) {
-    key(reflector, asked_.eyes, asked_.choice, asked_.element_m, asked_.samples, asked_.hemisphere,
-        asked_.mirrored_eyes, asked_.max_elements, asked_.map_resolution, asked_.pixel_price);
-  }
-
   Result<ReflectorPlan> plan(std::uint32_t reflector) {
     const Reflector& r = surroundings_.reflectors()[reflector].reflector;
     ORIEL_TRY(const auto samples, samples_of(reflector));
@@ -112,29 +91,6 @@ class Planner {
       const Vec2 side = (r.upper - r.lower) / Vec2(grid.x, grid.y);
       (side.x >= side.y ? grid.x : grid.y) *= 2;
     }
-  }
-
-  // Whether the views that are known still show what they showed, as far as eyes see it now.
-  Result<bool> holds(std::uint32_t reflector, const ReflectorPlan& known) {
-    ORIEL_TRY(const auto samples, samples_of(reflector));
-    std::vector<std::uint8_t> shown(samples.size());  // 1: seen, 2: sharp
-    ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
-      for (const ElementPlan& element : known.elements)
-        for (const Pick& pick : element.choice.picks) {
-          if (shown[i] == 2 || !is_inside(element.window, samples[i])) break;
-          const float needed = needed_resolution(surroundings_, reflector, element.candidates[pick.candidate],
-                                                 element.window, samples[i]);
-          const bool sharp = needed <= static_cast<float>(element.choice.resolution);
-          if (std::isfinite(needed)) shown[i] = std::max<std::uint8_t>(shown[i], sharp ? 2 : 1);
-        }
-    }));
-    double total = 0, seen = 0, sharp = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      total += samples[i].weight;
-      seen += shown[i] > 0 ? samples[i].weight : 0;
-      sharp += shown[i] > 1 ? samples[i].weight : 0;
-    }
-    return seen >= (known.seen() - kSeenLess) * total && sharp >= (known.sharp() - kSharpLess) * total;
   }
 
   Result<std::vector<ReflectedSample>> samples_of(std::uint32_t reflector) {
@@ -225,20 +181,6 @@ void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit,
                     fmt::format("{} of {} maps, some of them coarser", map_count(plans), maps));
 }
 
-// The plan without the candidates that were not picked.
-ReflectorPlan picked_only(ReflectorPlan plan) {
-  for (ElementPlan& element : plan.elements) {
-    std::vector<Vec3> picked;
-    for (Pick& pick : element.choice.picks) {
-      picked.push_back(element.candidates[pick.candidate]);
-      pick.candidate = static_cast<std::uint32_t>(picked.size() - 1);
-    }
-    element.candidates = std::move(picked);
-    element.choices = {element.choice};
-  }
-  return plan;
-}
-
 void append_maps(std::uint32_t reflector, const ReflectorPlan& plan, std::vector<RadianceMap>& maps) {
   for (const ElementPlan& e : plan.elements)
     for (const Pick& pick : e.choice.picks)
@@ -291,7 +233,7 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
 }
 
 Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, const PlannedViewOptions& options,
-                                     Context& context, std::vector<FoundReflector>& reflectors, KnownPlans& known) {
+                                     Context& context, std::vector<FoundReflector>& reflectors) {
   Planner planner(surroundings, options, context);
   ViewPlan out;
   std::vector<ReflectorPlan> plans;
@@ -300,23 +242,10 @@ Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, 
       plans.emplace_back();
       continue;
     }
-    const Hash128 identity = identity_of(surroundings.accel().scene(), reflectors[r]);
-    const auto before = std::ranges::find(known.before, identity, &KnownPlan::reflector);
-    std::optional<ReflectorPlan> kept;
-    if (before != known.before.end()) {
-      ORIEL_TRY(kept, planner.take_known(r, *before));
-    }
-    out.kept += kept.has_value();
-    ReflectorPlan plan;
-    if (kept) {
-      plan = std::move(*kept);
-    } else {
-      ORIEL_TRY(plan, planner.find_or_plan(r));
-    }
+    ORIEL_TRY(ReflectorPlan plan, planner.find_or_plan(r));
     if (map_count({&plan, 1}) == 0 && !plan.elements.empty())
       out.omitted.push_back(fmt::format("'{}' ({:.3g} m²): shows too little to be worth a map",
                                         reflectors[r].reflector.name, reflectors[r].reflector.area_m2));
-    known.now.push_back({identity, picked_only(plan)});
     plans.push_back(std::move(plan));
     context.report("views", static_cast<double>(r + 1) / static_cast<double>(reflectors.size()));
   }

@@ -32,9 +32,8 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
 // first_map and map_count: an element's maps in the order in which they were chosen. Candidates are hemispheres behind
 // the element (without those whose mirror image is outside the scene) and mirrored eyes. Where memory_bytes does not
 // suffice, pixels get dearer until all fits: maps that show least for their size are left out or get coarser. The same
-// for any number of threads. Known plans of reflectors that are still there are kept where they show no less (0.2 %
-// unseen or 1 % unsharp more is no less). Error kStopped.
+// for any number of threads. Error kStopped.
 Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, const PlannedViewOptions& options,
-                                     Context& context, std::vector<FoundReflector>& reflectors, KnownPlans& known);
+                                     Context& context, std::vector<FoundReflector>& reflectors);
 
 }  // namespace oriel

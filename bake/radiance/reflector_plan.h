@@ -1,4 +1,4 @@
-// The views of one reflector, element by element, and what the last bake knew of them.
+// The views of one reflector, element by element.
 #pragma once
 
 #include "bake/radiance/choice.h"
@@ -48,22 +48,5 @@ struct ReflectorPlan {
 inline void fields(Archive& archive, ReflectorPlan& plan) {
   archive(plan.grid.x, plan.grid.y, plan.elements);
 }
-
-// A plan, and the reflector that it is of (identity_of). Its candidates are those that were picked.
-struct KnownPlan {
-  Hash128 reflector;
-  ReflectorPlan plan;
-};
-inline void fields(Archive& archive, KnownPlan& k) {
-  archive(k.reflector, k.plan);
-}
-// Plans of an earlier bake with the same options, and those to be known next time, before memory limits them.
-struct KnownPlans {
-  std::span<const KnownPlan> before;
-  std::vector<KnownPlan> now;
-};
-
-// The same for reflectors of the same shape and lobe at the same place, whose maps leave out the same emitters.
-Hash128 identity_of(const Scene& scene, const FoundReflector& found);
 
 }  // namespace oriel

@@ -22,7 +22,6 @@ std::vector<Vec3> hemisphere_directions(std::uint32_t count, const RingArc& ring
 struct ViewPlan {
   std::vector<RadianceMap> maps;     // everything but the pixels; by reflector, element (row by row), viewpoint
   std::vector<std::string> omitted;  // what was reduced or left out and why, one line each
-  std::uint32_t kept = 0;            // reflectors whose views are those of an earlier bake
 };
 
 // Whether the point is in the scene's bounds, or no further out than the margin along any axis.

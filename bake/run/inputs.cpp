@@ -61,40 +61,6 @@ void fields(Archive& archive, const LayoutOf& of) {
   archive(of.atlas.page, of.atlas.uv, of.atlas.chart);
 }
 
-std::vector<Hash128> surface_looks(const Scene& s) {
-  std::vector<Hash128> materials;  // each once: its images are large
-  for (const SceneMaterial& material : s.materials) {
-    Hasher hasher;
-    Archive archive(hasher);
-    add_material(archive, s, material);
-    archive(material.emission);
-    add_slot(archive, s, material.emission_texture);
-    materials.push_back(hasher.result());
-  }
-  std::vector<Hasher> hashers(s.surfaces.size());
-  for (std::size_t i = 0; i < s.surfaces.size(); ++i) {
-    Archive archive(hashers[i]);
-    archive(materials[s.surfaces[i].material]);
-  }
-  // By triangle, as sides that got texels of their own lie behind all others.
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    Archive archive(hashers[s.triangle_surface[t]]);
-    if (!s.face_normals.empty()) archive(s.face_normals[t]);
-    for (int corner = 0; corner < 3; ++corner) {
-      const std::uint32_t v = s.triangles[t][corner];
-      archive(s.positions[v]);
-      if (!s.normals.empty()) archive(s.normals[v]);
-      if (!s.uv0.empty()) archive(s.uv0[v]);
-      if (!s.uv1.empty()) archive(s.uv1[v]);
-      if (!s.colors.empty()) archive(s.colors[v]);
-      if (!s.tangents.empty()) archive(s.tangents[v]);
-    }
-  }
-  std::vector<Hash128> looks;
-  for (const Hasher& hasher : hashers) looks.push_back(hasher.result());
-  return looks;
-}
-
 void fields(Archive& archive, const LitScene& of) {
   const Scene& scene = of.baked.accel.scene();
   archive(SurfacesOf{scene}, LightsOf{scene}, LayoutOf{of.baked.atlas}, of.baked.pages, of.baked.unlit_white);

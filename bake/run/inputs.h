@@ -26,9 +26,6 @@ struct LayoutOf {
 };
 void fields(Archive& archive, const LayoutOf& of);
 
-// By surface: a hash of its place, its shape, its material and what it emits.
-std::vector<Hash128> surface_looks(const Scene& scene);
-
 // All that light which is already baked depends on.
 struct LitScene {
   const BakedScene& baked;

@@ -82,7 +82,6 @@ class Bake {
     pack().lightmaps = std::move(light.pages), pack().sharp_light = std::move(light.sharp_light);
     const auto eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
     ORIEL_TRY(unlit_white_, unlit_white(task(), path_options(options_), eyes));
-    planned.light_reused = light.report.reuse.reused > 0;
     if (options_.with_radiance) pack().walk_grids = planned.all.region.grids;
     ORIEL_TRY(BakedReflections reflections, capture_reflections(std::move(planned), materials, mesh));
     put(std::move(sets.visible), std::move(sets.reflected), reflections);
@@ -252,7 +251,6 @@ class Bake {
                 if (made) rays = made->report.rays;
                 return made;
               }));
-    result_.map_reuse = reflections.report.reuse;
     omit(reflections.report.omissions);
     return reflections;
   }

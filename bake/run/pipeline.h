@@ -4,7 +4,6 @@
 #include <map>
 
 #include "bake/jobs/units.h"
-#include "bake/radiance/kept_maps.h"
 #include "bake/radiosity/ledger.h"
 #include "bake/run/options.h"
 #include "bake/run/stopwatch.h"
@@ -26,7 +25,6 @@ struct BakeResult {
   Pack pack;
   std::vector<StageTime> times;  // wall clock; not in the pack, whose bytes depend on input and options only
   RadiosityReport radiosity;
-  MapReuse map_reuse;  // of radiance maps
   Ledger ledger;
   UnitShare units;                    // not in the pack either: empty without a store of units
   std::vector<Warning> omissions;     // what was not modelled, and why

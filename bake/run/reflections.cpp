@@ -15,7 +15,6 @@
 #include "bake/run/fit_maps.h"
 #include "bake/run/inputs.h"
 #include "bake/run/lobe_share.h"
-#include "bake/run/option_table.h"
 
 namespace oriel {
 namespace {
@@ -69,69 +68,9 @@ Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, Conte
   std::vector<FoundReflector>& reflectors = planned.all.found.reflectors;
   const std::vector<FoundReflector> as_found = reflectors;
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), as_found, options.sight);
-  KnownPlans known;
-  if (planned.known) known.before = planned.known->plans;
   PlannedViewOptions views = options.planned;
   views.eyes = planned.all.eyes;
-  auto plan =
-      plan_views_for_eyes(ReflectedSurroundings(accel, as_found, options.sight), views, context, reflectors, known);
-  planned.plans = std::move(known.now);
-  return plan;
-}
-
-// Where in the store the last bake with these options of a scene with as many triangles left what it knew.
-Hash128 name_of_known(const BakeOptions& options, const Scene& scene, const Context& context) {
-  BakeOptions same = options;
-  same.radiosity.reuse_error = 0;
-  return hash_of(std::string("known reflections"), scene.triangles.size(), scene.surfaces.size(),
-                 options_json(same, context.seed));
-}
-
-std::vector<ScenePart> parts_of(const Scene& scene) {
-  std::vector<ScenePart> parts;
-  for (const Hash128& look : surface_looks(scene))
-    parts.push_back({look, Vec3(std::numeric_limits<float>::max()), Vec3(std::numeric_limits<float>::lowest())});
-  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-    ScenePart& part = parts[scene.triangle_surface[t]];
-    for (int corner = 0; corner < 3; ++corner) {
-      const Vec3& p = scene.positions[scene.triangles[t][corner]];
-      part.lower = glm::min(part.lower, p), part.upper = glm::max(part.upper, p);
-    }
-  }
-  return parts;
-}
-
-// The maps' pixels, those of the bake before where that is allowed; leaves what the next one may ask for.
-Result<MapReuse> capture_or_keep(const BakeOptions& options, const LitSurroundings& lit, const Stage& stage,
-                                 PlannedReflections& planned) {
-  const Scene& scene = lit.around.accel().scene();
-  Context& context = stage.context;
-  MapReuse reuse;
-  if (!context.units) {
-    ORIEL_TRY_VOID(capture_maps(lit, stage, planned.plan.maps));
-    return reuse;
-  }
-  const SkyImage& sky = scene.sky_image;
-  KnownReflections now{
-      .parts = parts_of(scene),
-      .plans = planned.plans,
-      .captured = {},
-      .inputs = context.inputs,
-      .around = hash_of(scene.lower, scene.upper, scene.sky, sky.width, sky.height, sky.texels, sky.rotation_rad)};
-  for (const FoundReflector& found : lit.around.reflectors()) now.captured.push_back(identity_of(scene, found));
-  const double error = options.radiosity.reuse_error;
-  if (planned.known && planned.known->around == now.around) {
-    const Edit edit{*planned.known, edited_boxes(planned.known->parts, now.parts), error};
-    ORIEL_TRY(reuse, capture_edited_maps(lit, edit, stage, planned.plan.maps));
-  } else {
-    ORIEL_TRY_VOID(capture_maps(lit, stage, planned.plan.maps));
-  }
-  reuse.asked = error;
-  reuse.views = planned.plan.kept;
-  // What took pixels from elsewhere is not passed on: errors would add up from edit to edit.
-  if (reuse.kept == 0 && reuse.views == 0 && !planned.light_reused)
-    remember_reflections(context, name_of_known(options, scene, context), std::move(now));
-  return reuse;
+  return plan_views_for_eyes(ReflectedSurroundings(accel, as_found, options.sight), views, context, reflectors);
 }
 
 // Of eyes that are given those that are asked one by one: the first, which are cameras, and some of the others, which
@@ -256,8 +195,6 @@ Result<PlannedReflections> plan_reflections(const BakeTask& bake, FoundReflectio
   if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
   if (dark) planned.all.found = {}, planned.all.curved = {};
   if (planned.all.empty()) return planned;
-  if (options.radiosity.reuse_error > 0)
-    planned.known = recall_reflections(context, name_of_known(options, accel.scene(), context));
   const std::vector<FoundReflector> found = planned.all.found.reflectors;
   BakeOptions fewer = options;
   // Planning that takes longer than twice its time ends: the maps of the round before stay, or there are none.
@@ -272,7 +209,6 @@ Result<PlannedReflections> plan_reflections(const BakeTask& bake, FoundReflectio
     auto plan = plan_maps(fewer, accel, context, planned);
     if (!plan && !context.stop && whole.spent() > most) {
       planned.all.found.reflectors = before;
-      planned.plans.clear();
       if (divisor == kFewest) {
         leave_out_maps({"planning them takes too long for --time", WarningKind::kTimeOver}, planned);
         planned.divisor = divisor, planned.seconds = whole.spent();
@@ -330,7 +266,7 @@ Result<BakedReflections> bake_reflections(const BakeTask& bake, PlannedReflectio
   std::atomic<std::uint64_t> rays{0};
   const Stage stage{context, &rays};
   const LitSurroundings lit{surroundings, to_planar};
-  ORIEL_TRY(report.reuse, capture_or_keep(options, lit, stage, planned));
+  ORIEL_TRY_VOID(capture_maps(lit, stage, plan.maps));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), stage));
   add_punctual_lights(accel, curved);
   const Judges judges{held_out_eyes(region, kHeldOutEyes, context.seed), cameras_of(region.points)};

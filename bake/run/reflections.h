@@ -2,7 +2,6 @@
 #pragma once
 
 #include "bake/radiance/curved_reflectors.h"
-#include "bake/radiance/kept_maps.h"
 #include "bake/radiance/samples.h"
 #include "bake/run/assemble.h"
 #include "bake/run/judge.h"
@@ -32,22 +31,18 @@ struct ReflectionReport {
   std::vector<std::string> ways;       // by reflector: why it is drawn as it is
   std::vector<Warning> omissions;      // what was not modelled, and why
   std::uint64_t rays = 0;              // of capture and judging
-  MapReuse reuse;                      // what an edit of the scene left of the maps of the bake before
 };
 
 // Reflections before there is light: what needs none of it.
 struct PlannedReflections {
   FoundReflections all;
-  ViewPlan plan;                          // of the planar reflectors; without pixels
-  double seconds = 0;                     // that planning takes where nothing of it is known already
-  std::uint32_t divisor = 1;              // of its samples
-  double capture_s = 0;                   // that the rest is likely to take; 0 unless asked for
-  double surround_s = 0;                  // of these, surround maps
-  std::vector<KnownPlan> plans;           // to be known next time
-  std::optional<KnownReflections> known;  // what the bake before knew; with RadiosityOptions::reuse_error
-  bool light_reused = false;              // some of the lightmap is that of the bake before
-  double planar_pixels() const;           // of all maps of planar reflectors
-  double surround_pixels() const;         // of those of curved ones
+  ViewPlan plan;                   // of the planar reflectors; without pixels
+  double seconds = 0;              // that planning takes where nothing of it is known already
+  std::uint32_t divisor = 1;       // of its samples
+  double capture_s = 0;            // that the rest is likely to take; 0 unless asked for
+  double surround_s = 0;           // of these, surround maps
+  double planar_pixels() const;    // of all maps of planar reflectors
+  double surround_pixels() const;  // of those of curved ones
   bool has_images() const { return !plan.maps.empty() || !all.curved.reflectors.empty(); }
   bool empty() const { return all.empty(); }
 };

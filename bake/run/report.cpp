@@ -199,15 +199,6 @@ Json reuse_json(const ReuseReport& r) {
   return {{"asked", r.asked}, {"tiles", r.tiles}, {"kept", r.reused}, {"relative_error", r.error}};
 }
 
-Json reuse_json(const MapReuse& r) {
-  if (r.asked <= 0) return Json();
-  return {{"asked", r.asked},
-          {"bands", r.bands},
-          {"kept", r.kept},
-          {"reflectors_with_views_kept", r.views},
-          {"relative_error", r.error}};
-}
-
 // Where light comes from beside emitting surfaces: what oriel-inspect why asks for. World metres.
 Json punctual_json(const Scene& scene) {
   Json out = Json::array();
@@ -328,7 +319,6 @@ std::string plan_json(const BakeFacts& f) {
         {"maps", f.pack.radiance_maps.size()},
         {"surround_maps", f.pack.surround_maps.size()},
         {"walkable_m2", walkable_m2(f.pack)},
-        {"reuse", reuse_json(f.reflections.reuse)},
         {"rays", f.reflections.rays}}},
       {"errors", errors_json(f)},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},

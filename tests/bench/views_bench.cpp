@@ -73,8 +73,7 @@ Status run_scene(const std::string& path, const Settings& settings) {
   const ReflectedSurroundings surroundings(accel, found.reflectors, {});
   PlannedViewOptions views = settings.plan;
   views.eyes = training;
-  KnownPlans none;
-  ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, views, context, reflectors, none));
+  ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, views, context, reflectors));
   const double planned_s = seconds();
   const auto white = [](const SeenSurface&) { return Vec3(1); };
   ORIEL_TRY_VOID(add_residuals({surroundings, white}, {.eyes = training}, context, reflectors, plan));

@@ -30,8 +30,7 @@ Planned plan_in(const Accel& accel, const MirrorRoom& room, std::span<const Vec3
   Context context;
   context.threads = threads;
   options.eyes = eyes;
-  KnownPlans none;
-  auto plan = plan_views_for_eyes(ReflectedSurroundings(accel, as_found, {}), options, context, out.reflectors, none);
+  auto plan = plan_views_for_eyes(ReflectedSurroundings(accel, as_found, {}), options, context, out.reflectors);
   EXPECT_TRUE(plan);
   if (plan) out.plan = std::move(*plan);
   return out;
@@ -150,9 +149,8 @@ TEST(PlannedViews, AreTheSameForAnyThreadsAndStopWhenAsked) {
   const std::vector<Vec3> eyes = eyes_in_room(10);
   PlannedViewOptions options;
   options.eyes = eyes;
-  KnownPlans none;
   const auto stopped =
-      plan_views_for_eyes(ReflectedSurroundings(*accel, a.reflectors, {}), options, context, reflectors, none);
+      plan_views_for_eyes(ReflectedSurroundings(*accel, a.reflectors, {}), options, context, reflectors);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
 }
