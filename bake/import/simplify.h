@@ -5,8 +5,9 @@
 
 namespace oriel {
 
-// The mesh with at most that share of its triangles, but a few a primitive: vertices of one cell of a grid become its
-// first (Rossignac and Borrel 1993, "Multi-resolution 3D approximations"). What a vertex has beside its place stays.
+// The mesh with at most that share of its triangles: vertices of one cell of a grid become one of them (Rossignac and
+// Borrel 1993, "Multi-resolution 3D approximations", by meshoptimizer). What a vertex has beside its place stays.
+// Primitives of which nothing would be left stay whole.
 gltf::LoadedMesh simplified(const gltf::LoadedMesh& mesh, double share);
 
 }  // namespace oriel
