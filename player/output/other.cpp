@@ -99,11 +99,6 @@ Status Other::draw(const Seen& seen) {
   return {};
 }
 
-Status Other::show(const FloatImage& rgba) {
-  laid_ = false;
-  return renderer_->take_light(rgba);
-}
-
 Result<ByteImage> Other::shown_beside(Renderer& first, float divider, const PictureNotes& notes, std::uint32_t n) {
   ORIEL_TRY(const ByteImage left, shown_picture(first, notes, n));
   ORIEL_TRY(const ByteImage right, shown_picture(*renderer_, notes, n));

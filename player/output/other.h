@@ -42,12 +42,6 @@ class Other {
   }
   std::vector<float> read_light() const { return renderer_->read_light(); }
   Renderer& renderer() { return *renderer_; }
-  // Of a pack's images, on the device. They come with draw().
-  std::uint64_t image_bytes() const { return scene_ ? scene_->images().state().used : 0; }
-  // Whether draw() has more light to show of lamps that moved.
-  bool has_live_news() const { return scene_ && scene_->has_live_news(); }
-  // Any other RGBA picture instead, as Renderer::take_light().
-  Status show(const FloatImage& rgba);
   // shown_picture() and write_picture() of what both have drawn last: the first's up to the divider [0, 1], from there
   // on this one's.
   Result<ByteImage> shown_beside(Renderer& first, float divider, const PictureNotes& notes, std::uint32_t n = 1);

@@ -1,15 +1,14 @@
 // What the user sees of two packs, or of a pack and a picture, beside each other. No window, no drawing.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "formats/core/vec.h"
 
 namespace oriel {
 
-// Both, parted by a divider; one of them; or FLIP by pixel.
-enum class Beside { kSplit, kFirst, kSecond, kDifference };
+// Both, parted by a divider; or one of them.
+enum class Beside { kSplit, kFirst, kSecond };
 
 struct ComparisonView {
   std::string first, second;  // their names; without a second one there is nothing to compare
@@ -17,8 +16,6 @@ struct ComparisonView {
   float divider = 0.5f;  // share of the window's width that shows the first
   bool dragged = false;
   bool elsewhere = false;  // the second is a picture that was taken from another place than the camera's
-  // Of the frame, once it has been found: FLIP's mean and its largest value.
-  std::optional<Vec2> flip;
 
   bool on() const { return !second.empty(); }
 };

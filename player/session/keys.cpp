@@ -30,7 +30,6 @@ constexpr Binding kBindings[] = {
      Action::kStage},
     {"B", "beside each other: two packs, or a pack and a picture; the divider is dragged", Action::kSplit},
     {"V", "one of the two, and the other", Action::kFlip},
-    {"N", "FLIP between the two, once nothing moves", Action::kDifference},
     {"Tab", "panel", Action::kPanel},
     {"F11", "presentation: the whole screen, no words; Esc ends it", Action::kPresent},
     {"F1", "this sheet", Action::kKeySheet},

@@ -28,7 +28,6 @@ enum class Action {
   kReload,
   kFlip,
   kSplit,
-  kDifference,
   kNextCamera,
   kCamera,
 };

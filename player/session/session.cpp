@@ -109,7 +109,6 @@ constexpr Deed kDeeds[] = {
     {Action::kReload, [](Session& s) { s.reload = true; }},
     {Action::kFlip, flip},
     {Action::kSplit, [](Session& s) { s.comparison.beside = Beside::kSplit; }},
-    {Action::kDifference, [](Session& s) { s.comparison.beside = Beside::kDifference; }},
 };
 
 // Along the path while it plays, else by hand.

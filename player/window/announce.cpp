@@ -18,11 +18,9 @@ std::string announce_beside(const ComparisonView& comparison) {
     case Beside::kFirst:
       return comparison.first;
     case Beside::kSecond:
-      return comparison.second;
-    case Beside::kDifference:
       break;
   }
-  return fmt::format("FLIP between {} and {}", comparison.first, comparison.second);
+  return comparison.second;
 }
 
 std::string announce_orbit(const Session& session) {
@@ -58,7 +56,6 @@ std::string announce(const Command& command, const Pack& pack, const Session& se
       return pack.movers.empty() ? "nothing moves here" : "all movers back";
     case Action::kFlip:
     case Action::kSplit:
-    case Action::kDifference:
       return announce_beside(session.comparison);
     case Action::kCamera:
       return announce_camera(command.camera, pack);

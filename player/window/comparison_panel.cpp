@@ -5,34 +5,16 @@
 #include <array>
 #include <utility>
 
-#include "formats/image/heat.h"
 #include "player/window/widgets.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::array<std::pair<const char*, Beside>, 4> kWays{
-    {{"both", Beside::kSplit}, {"first", Beside::kFirst}, {"second", Beside::kSecond}, {"FLIP", Beside::kDifference}}};
+constexpr std::array<std::pair<const char*, Beside>, 3> kWays{
+    {{"both", Beside::kSplit}, {"first", Beside::kFirst}, {"second", Beside::kSecond}}};
 
 std::string file_name(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
-}
-
-void draw_flip(const ComparisonView& comparison) {
-  if (!comparison.flip) return draw_line("flip", "FLIP is found once nothing moves", 1, 0.5f);
-  draw_line("flip", fmt::format("FLIP: mean {:.3f}, at most {:.2f}", comparison.flip->x, comparison.flip->y), 1, 0.5f);
-  ImDrawList* list = ImGui::GetForegroundDrawList();
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float width = scaled(160), height = scaled(8), left = 0.5f * (size.x - width), top = size.y - scaled(60);
-  constexpr int kSteps = 64;
-  for (int i = 0; i < kSteps; ++i) {
-    const Vec3 c = heat(static_cast<float>(i) / (kSteps - 1));
-    const float at = left + width * static_cast<float>(i) / kSteps;
-    list->AddRectFilled(ImVec2(at, top), ImVec2(at + width / kSteps + 1, top + height),
-                        ImGui::GetColorU32(ImVec4(c.r, c.g, c.b, 1)));
-  }
-  list->AddText(ImVec2(left - scaled(12), top - scaled(3)), IM_COL32_WHITE, "0");
-  list->AddText(ImVec2(left + width + scaled(6), top - scaled(3)), IM_COL32_WHITE, "1");
 }
 
 }  // namespace
@@ -54,8 +36,6 @@ void draw_names(const ComparisonView& comparison) {
       return draw_line("beside", file_name(comparison.first), 0);
     case Beside::kSecond:
       return draw_line("beside", second, 0);
-    case Beside::kDifference:
-      return draw_flip(comparison);
     case Beside::kSplit:
       break;
   }

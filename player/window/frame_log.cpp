@@ -22,7 +22,6 @@ std::string text_of(const Session& session, const InputFrame& input, const Frame
       "ev={:.2f}",
       seen.window.x, seen.window.y, input.inputs, input.held, pointer.x, pointer.y, eye.x, eye.y, eye.z, forward.x,
       forward.y, forward.z, session.shown_ev100);
-  if (session.comparison.flip) out += fmt::format(" flip={:.4f}", session.comparison.flip->x);
   if (seen.loading) out += " loading";
   if (seen.focused) out += " focused";
   if (seen.grabbed) out += " grabbed";

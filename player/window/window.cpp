@@ -172,8 +172,7 @@ class Loop {
     }
     meter_.loading = scene_->images().state();  // with what the frame wanted
     adapt_exposure(metered_, dt_s, session_);
-    if (beside_)
-      ORIEL_TRY_VOID(beside_->draw(renderer_, images_shown(), seen(width, height), session_, seconds_since(start_)));
+    if (beside_) ORIEL_TRY_VOID(beside_->draw(seen(width, height), session_));
     if (std::exchange(session_.screenshot, false)) keep_screenshot(next_name(".png"), width, height);
     if (std::exchange(session_.light_screenshot, false)) keep_screenshot(next_name(".exr"), width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -219,10 +218,9 @@ class Loop {
     say(written ? name : written.error().text());
   }
 
-  // Supersampled, it is drawn anew, and the frame again after it. FLIP is of the window's own pixels.
+  // Supersampled, it is drawn anew, and the frame again after it.
   Status write_screenshot(const std::string& name, int width, int height) {
-    const bool flip = beside_ && session_.comparison.beside == Beside::kDifference;
-    const int n = flip ? 1 : arguments_.supersample;
+    const int n = arguments_.supersample;
     if (n == 1 && !paced_.is_whole()) ORIEL_TRY_VOID(redraw(width, height));
     const PictureNotes notes{session_.camera, scene_->pack().mesh.origin, session_.camera.name, session_.shown_ev100,
                              session_.curve};
@@ -242,12 +240,8 @@ class Loop {
 
   Status redraw(int width, int height) {
     ORIEL_TRY_VOID(renderer_.render(*scene_, view_of(width, height), session_.frame));
-    if (!beside_) return {};
-    return beside_->draw(renderer_, images_shown(), seen(width, height), session_, seconds_since(start_));
+    return beside_ ? beside_->draw(seen(width, height), session_) : Status();
   }
-
-  // Another number where other images are shown: while maps follow lamps, too.
-  std::uint64_t images_shown() const { return 2 * meter_.loading.used + (meter_.loading.following ? 1 : 0); }
 
   Other::Seen seen(int width, int height) const {
     const double time_s = arguments_.time_s + seconds_since(start_);

@@ -94,7 +94,7 @@ TEST_F(Beside, SupersampledPicturesAreMeans) {
 
 class BesideWindow : public PlayWindow {};
 
-// The keys, the divider under the mouse, and FLIP once nothing moves, each as a screenshot.
+// The keys and the divider under the mouse, each as a screenshot.
 TEST_F(BesideWindow, KeysAndTheDividerChooseWhatIsSeen) {
   Pack darker = tiny_pack();
   for (LightmapPage& page : darker.lightmaps)
@@ -107,12 +107,11 @@ key F12
 key v; key F12
 key v; key F12
 key b; drag 80 30 20 30; key F12
-key n; wait_for shows 'flip=*'; key F12
 quit
 )");
-  ASSERT_TRUE(ends(r, 0, "oriel-004.png"));
+  ASSERT_TRUE(ends(r, 0, "oriel-003.png"));
   std::vector<std::vector<std::uint8_t>> shots;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 4; ++i) {
     const auto shot = read_png(folder() / ("oriel-00" + std::to_string(i) + ".png"));
     ASSERT_TRUE(shot) << shot.error().text();
     ASSERT_EQ(shot->width, 160u);
@@ -129,8 +128,6 @@ quit
   };
   EXPECT_EQ(shots[0], parted(80));
   EXPECT_EQ(shots[3], parted(20)) << "the divider was dragged";
-  EXPECT_NE(shots[4], first);
-  EXPECT_NE(shots[4], second);
 }
 
 }  // namespace

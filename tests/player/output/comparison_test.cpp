@@ -1,11 +1,7 @@
-// Pictures in frames of other sizes, split pictures, FLIP while nothing moves.
+// Pictures in frames of other sizes, split pictures.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
-
 #include "player/output/fit_picture.h"
-#include "player/output/flip_watch.h"
 #include "player/output/split.h"
 #include "player/session/comparison.h"
 
@@ -81,61 +77,6 @@ TEST(Divider, IsDraggedFromWhereItIsTaken) {
   EXPECT_EQ(c.divider, 1.0f) << "let go";
   c.beside = Beside::kFirst;
   EXPECT_FALSE(drag_divider({1, 0.5f}, true, true, 0.01f, c)) << "it is not seen";
-}
-
-ByteImage grey(std::uint8_t value) {
-  return {16, 16, 3, std::vector<std::uint8_t>(768, value)};
-}
-
-const FlipFrame* wait_for(FlipWatch& watch) {
-  for (int i = 0; i < 2000; ++i) {
-    if (const FlipFrame* found = watch.found()) return found;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return nullptr;
-}
-
-TEST(FlipFrames, OfEqualAndOppositePictures) {
-  const FlipFrame same = flip_frame(grey(90), grey(90)), other = flip_frame(grey(0), grey(255));
-  EXPECT_EQ(same.mean, 0);
-  EXPECT_EQ(same.largest, 0);
-  EXPECT_GT(other.mean, 0.8f);
-  EXPECT_EQ(other.colors.channels, 4u);
-  EXPECT_EQ(other.colors.pixels[3], 2) << "shown as it is";
-  EXPECT_NE(same.colors.pixels[0], other.colors.pixels[0]);
-}
-
-TEST(FlipWatches, AskOnceTheFramesRest) {
-  FlipWatch watch;
-  FlipWatch::Key key;
-  key.size = {16, 16};
-  EXPECT_FALSE(watch.look(key, 10));
-  EXPECT_FALSE(watch.look(key, 10.2));
-  key.camera.eye.x = 1;
-  EXPECT_FALSE(watch.look(key, 10.4)) << "moved";
-  key.options.timed = true;
-  key.ev100 += 0.001f;
-  EXPECT_TRUE(watch.look(key, 10.8));
-  watch.start(grey(10), grey(200));
-  EXPECT_FALSE(watch.look(key, 20)) << "asked already";
-  const FlipFrame* found = wait_for(watch);
-  ASSERT_NE(found, nullptr);
-  EXPECT_GT(found->mean, 0);
-  EXPECT_FALSE(watch.look(key, 30)) << "known";
-  EXPECT_NE(watch.found(), nullptr);
-  key.options.maps_per_element = 1;
-  EXPECT_FALSE(watch.look(key, 31));
-  EXPECT_EQ(watch.found(), nullptr) << "of other frames";
-  EXPECT_TRUE(watch.look(key, 32));
-  watch.start(grey(10), grey(200));
-  key.camera.eye.x = 2;
-  EXPECT_FALSE(watch.look(key, 33));
-  while (watch.busy()) EXPECT_EQ(watch.found(), nullptr) << "the answer came too late";
-  EXPECT_EQ(watch.found(), nullptr);
-  EXPECT_TRUE(watch.look(key, 34));
-  key.image_bytes[1] = 1;
-  EXPECT_FALSE(watch.look(key, 35)) << "an image came";
-  EXPECT_TRUE(watch.look(key, 36));
 }
 
 }  // namespace

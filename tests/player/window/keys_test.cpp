@@ -98,7 +98,6 @@ const std::map<std::string, Try> kTries{
     {"M", {"key m; key m; key m; key m; key m; key m; key m; key m; key m; key m; key m", "stage zones"}},
     {"B", {"key b", "tiny.oriel beside dark.oriel"}},
     {"V", {"key v; key v", "oriel-play: dark.oriel"}},
-    {"N", {"key n; key b", "FLIP between tiny.oriel and dark.oriel"}},
     {"Tab", {"key Tab; key Tab", "panel closed"}},
     // Its Escape ends the presentation and not the player.
     {"F11",
