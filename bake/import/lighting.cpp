@@ -76,16 +76,12 @@ Status load_sky(const ImportOptions& options, gltf::MemoryBudget& budget, Import
   return {};
 }
 
-// "a", "b" and 3 more.
-std::string list_of_lights(const Scene& scene) {
-  constexpr std::size_t kShown = 12;
-  std::string text;
-  std::size_t count = 0;
+// Points and spots.
+std::vector<std::string> light_names(const Scene& scene) {
+  std::vector<std::string> names;
   for (const Light& light : scene.lights)
-    if (light.type != LightType::kDirectional && ++count <= kShown)
-      text += fmt::format("{}\"{}\"", count > 1 ? ", " : "", light.name);
-  if (count > kShown) text += fmt::format(" and {} more", count - kShown);
-  return count > 0 ? text : "none";
+    if (light.type != LightType::kDirectional) names.push_back(light.name);
+  return names;
 }
 
 Status load_profiles(const ImportOptions& options, gltf::MemoryBudget& budget, ImportedScene& out, Context& context) {
@@ -96,8 +92,8 @@ Status load_profiles(const ImportOptions& options, gltf::MemoryBudget& budget, I
     bool found = false;
     for (Light& light : scene.lights) found |= light.name == node && light.type != LightType::kDirectional;
     if (!found)
-      return fail(ErrorCode::kUsage, "IES profile",
-                  "found the node \"{}\", expected a point or spot light: there are {}", node, list_of_lights(scene));
+      return fail(ErrorCode::kUsage, "IES profile", "found the node \"{}\", expected a point or spot light: {}", node,
+                  names_like(node, light_names(scene)));
     const auto [at, added] = known.try_emplace(path, static_cast<std::int32_t>(scene.profiles.size()));
     if (added) {
       ORIEL_TRY(const Bytes bytes, read_input(path, budget, out));
@@ -117,13 +113,14 @@ Status load_profiles(const ImportOptions& options, gltf::MemoryBudget& budget, I
 }
 
 // A name without a light or material is a typing error.
-Status none_scaled(const char* option, const LightScale& scale, const std::string& there, Context& context) {
+Status none_scaled(const char* option, const LightScale& scale, const std::vector<std::string>& there,
+                   Context& context) {
   if (scale.names.empty()) {
     context.warning(fmt::format("{} has no effect: nothing of its kind shines", option));
     return {};
   }
-  return fail(ErrorCode::kUsage, option, "found the name \"{}\", expected one that shines: there are {}", scale.names,
-              there);
+  return fail(ErrorCode::kUsage, option, "found the name \"{}\", expected one that shines: {}", scale.names,
+              names_like(scale.names, there));
 }
 
 Status scale_lights(const ImportOptions& options, Scene& scene, Context& context) {
@@ -136,19 +133,19 @@ Status scale_lights(const ImportOptions& options, Scene& scene, Context& context
       any = true;
       light.intensity *= static_cast<float>(scale.factor), light.color *= static_cast<float>(scale.factor);
     }
-    if (!any) ORIEL_TRY_VOID(none_scaled("--lamp-scale", scale, list_of_lights(scene), context));
+    if (!any) ORIEL_TRY_VOID(none_scaled("--lamp-scale", scale, light_names(scene), context));
   }
   for (const LightScale& scale : options.emission_scales) {
     bool any = false;
-    std::string there;
+    std::vector<std::string> there;
     for (SceneMaterial& material : scene.materials) {
       if (max_component(material.emission) <= 0) continue;
-      there += fmt::format("{}\"{}\"", there.empty() ? "" : ", ", material.name);
+      there.push_back(material.name);
       if (!scale.names.empty() && !fits_pattern(scale.names, material.name)) continue;
       any = true;
       material.emission *= static_cast<float>(scale.factor);
     }
-    if (!any) ORIEL_TRY_VOID(none_scaled("--emission-scale", scale, there.empty() ? "none" : there, context));
+    if (!any) ORIEL_TRY_VOID(none_scaled("--emission-scale", scale, there, context));
   }
   return {};
 }

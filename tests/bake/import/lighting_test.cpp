@@ -112,7 +112,7 @@ TEST(Lighting, ProfilesGoToTheirNodes) {
     const Imported wrong = import(with_lights(), options);
     ASSERT_FALSE(wrong.ok());
     EXPECT_EQ(wrong.result.error().code, ErrorCode::kUsage);
-    EXPECT_NE(wrong.error().find("there are \"lamp\""), std::string::npos) << wrong.error();
+    EXPECT_NE(wrong.error().find("the nearest are \"lamp\""), std::string::npos) << wrong.error();
   }
   options.ies = {{"lamp", folder.path() / "missing.ies"}};
   EXPECT_EQ(import(with_lights(), options).result.error().code, ErrorCode::kIo);
@@ -211,9 +211,9 @@ TEST(LightScales, AreByNameAndTellOfNamesThatAreNot) {
   EXPECT_EQ(r.scene().lights[2].intensity, Vec3(1));
   EXPECT_EQ(r.scene().materials[0].emission, Vec3(683));
   options.emission_scales = {{"wall", 2}};
-  EXPECT_NE(import(g, options).error().find("there are \"bulb glass\""), std::string::npos);
+  EXPECT_NE(import(g, options).error().find("the nearest are \"bulb glass\""), std::string::npos);
   options.emission_scales.clear(), options.lamp_scales = {{"lampe", 2}};
-  EXPECT_NE(import(g, options).error().find("there are \"lamp\""), std::string::npos);
+  EXPECT_NE(import(g, options).error().find("the nearest are \"lamp\""), std::string::npos);
 }
 
 // 4 × 2 texels, RGBE: (1, 0.5, 0.25) above, black below.
