@@ -73,24 +73,19 @@ class CachedEstimator : public LightEstimator {
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
-    GroupedLight light = reflected_groups();
-    const GroupHalves direct{direct_.grouped_halves(), true, &light};
-    light.add(filter_groups(texels_, graph_, direct, narrow(options_.filter), context_));
-    write_grouped(texels_, light, groups);
+    write_grouped(texels_, filter_groups(texels_, graph_, {direct_, gathered_}, options_.filter, context_), groups);
     return true;
   }
 
   std::optional<TexelLight> texel_light() const override {
     auto [extra, grouped] = smooth_additional(lamps_, texels_, graph_, gathered_, context_);
-    return TexelLight{texels_,    query_, cached_, std::move(extra), std::move(grouped), estimate_, reflected_groups(),
-                      importance_};
+    const GroupHalves gathered{gathered_.grouped_halves(), false};
+    GroupedLight reflected = filter_groups(texels_, graph_, gathered, options_.filter, context_);
+    return TexelLight{
+        texels_, query_, cached_, std::move(extra), std::move(grouped), estimate_, std::move(reflected), importance_};
   }
 
  private:
-  GroupedLight reflected_groups() const {
-    return filter_groups(texels_, graph_, {gathered_.grouped_halves(), false}, options_.filter, context_);
-  }
-
   // Computes direct light, its bounces on coarse patches, and the first gather.
   Status begin(const Goal& goal) {
     ORIEL_TRY(const bool all, first_direct_.everywhere(order_));
@@ -201,7 +196,8 @@ class CachedEstimator : public LightEstimator {
   }
 
   double seconds_left() const { return options_.left ? options_.left() : 0; }
-  double refined() const { return double(task_.work() - first_work_); }
+  double refined() const { return static_cast<double>(task_.work() - first_work_); }
+  bool out_of_rays() const { return refined() >= task_.most_work(texels_.count()); }
   bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }
 
   // Runs a refinement until `enough`; each texel gets it whole or not at all.
@@ -241,6 +237,10 @@ class CachedEstimator : public LightEstimator {
     return component;
   }
 
+  bool is_dark(std::size_t i) const {
+    return luminance(direct_.value[i] + estimate_.value[i]) < kDark * mean_luminance_;
+  }
+
   std::uint32_t most_gathered() const { return std::max(1u, most_rays_.of_both() / kHalves); }
 
   // Texels without any gather ray, for lack of time, take the light of the bounces.
@@ -258,11 +258,9 @@ class CachedEstimator : public LightEstimator {
     if (const std::uint32_t more = std::min(most_gathered(), kFirstOccluded); more > per_half && !ended_early_)
       ORIEL_TRY_VOID(gather_list(more));
     update_estimate();
+    // Few rays find light in a gap: a handful that find none is no evidence.
     for (std::uint32_t more = 2 * kFirstOccluded; more <= std::min(most_gathered(), kMostDark); more *= 2) {
-      const float dark = kDark * mean_luminance_;
-      std::erase_if(list, [&](std::uint32_t i) {
-        return luminance(direct_.value[i] + estimate_.value[i]) >= dark || gathered_.samples[i] >= more;
-      });
+      std::erase_if(list, [&](std::uint32_t i) { return !is_dark(i) || gathered_.samples[i] >= more; });
       if (list.empty() || ended_early_) break;
       ORIEL_TRY_VOID(gather_list(more));
       update_estimate();
@@ -289,8 +287,7 @@ class CachedEstimator : public LightEstimator {
       if (const double converged = direct.converged + gathered.converged; converged > goal) now -= converged;
       context_.foretell("refinement", progress.fraction(refined(), now));
       if (now <= goal && (direct.mean + gathered.mean <= goal || !most_rays_.raise())) return {};
-      out_of_rays_ = refined() >= task_.most_work(texels_.count());
-      if ((ended_early_ = done()) || out_of_rays_) return {};
+      if ((ended_early_ = done()) || (out_of_rays_ = out_of_rays())) return {};
       const FrameGoal to_reach{importance_, now, goal};
       const auto worst = [&](const auto& p) { return worst_of(error_graph_, not_reused(), p, to_reach, context_); };
       std::vector<std::uint32_t> list;
@@ -368,12 +365,12 @@ class CachedEstimator : public LightEstimator {
   HalfSums gathered_;
   FirstDirect first_direct_{task_, direct_light_, texels_, direct_};
   LampLight lamps_;
-  std::vector<bool> little_seen_, fixed_additional_;  // by texel; its additional light is that of former particles
-  Estimate smooth_direct_;                            // of the direct light
-  Estimate estimate_;                                 // of the gathered light
-  std::vector<Vec3> irradiance_;                      // of texels as gather rays find it, lux
-  std::vector<Vec3> coarse_;                          // without light of particles, lux
-  CachedLight cached_;                                // irradiance_ with slopes
+  std::vector<bool> fixed_additional_;  // by texel: its additional light is that of former particles
+  Estimate smooth_direct_;              // of the direct light
+  Estimate estimate_;                   // of the gathered light
+  std::vector<Vec3> irradiance_;        // of texels as gather rays find it, lux
+  std::vector<Vec3> coarse_;            // without light of particles, lux
+  CachedLight cached_;                  // irradiance_ with slopes
   const FinalGather gather_{sample_points_, query_, cached_};
   BrightTexels bright_;            // importance sampled texels of it
   GroupedLight grouped_;           // irradiance_ by light group; may be empty
@@ -384,6 +381,7 @@ class CachedEstimator : public LightEstimator {
   FrameError frames_;
   MostRays most_rays_;
   std::vector<float> importance_;                    // by texel: fraction of the frame pixels, neighbourhood average
+  std::vector<bool> little_seen_;                    // by texel
   float mean_luminance_ = 0;                         // over visible texels, lux
   std::uint64_t direct_rays_ = 0, gather_rays_ = 0;  // of refinements
   std::uint64_t first_work_ = 0, first_rays_ = 0;    // cost and rays before any refinement

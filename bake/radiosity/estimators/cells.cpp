@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kEdge = 0.25f;      // of a second difference: error of interpolation at an edge
 constexpr double kNeighbour = 0.4;  // of the error allowed: neighbours of a chosen cell above it are chosen too
-constexpr double kSecondLevel = 1.5, kNextLevel = 3;  // of the error allowed; factor of it, a level
+constexpr double kNextLevel = 3;    // factor of the error
 // Assumed relative error where texels cannot give one: in narrow charts, and at the rim of a chart with an occluder
 // near.
 constexpr double kUnevaluated = 0.1;
@@ -129,19 +129,20 @@ class PageCells {
 };
 
 // A further level halves the error at an edge for four times the points, which is best used at about three times the
-// error. The second one is used from half of that on, since its points do not gather.
-std::uint8_t level_for(double error, const CellGoal& goal) {
+// error. Points at a quarter of the cost are used from half of that error on.
+std::uint8_t level_for(double error, bool gathers, const CellGoal& goal) {
+  if (!gathers) error *= std::sqrt(double{kDirectPoints});
   std::uint8_t level = 1;
-  for (double next = kSecondLevel * goal.error; (2u << level) <= goal.most_side && error > next; next *= kNextLevel)
+  for (double next = kNextLevel * goal.error; (2u << level) <= goal.most_side && error > next; next *= kNextLevel)
     ++level;
   return level;
 }
 
-// Adjacent cells share border points.
-std::uint64_t points_of(std::uint8_t level, const CellGoal& goal) {
+// The number of points as CellGoal::most_points counts them, times kDirectPoints. Adjacent cells share border points.
+std::uint64_t points_of(std::uint8_t level, bool gathers, const CellGoal& goal) {
   if (level <= goal.lit_level) return 0;
   const std::uint64_t side = std::uint64_t{1} << level;
-  return side * (side + 1);
+  return side * (side + 1) * (gathers ? kDirectPoints : 1);
 }
 
 // Chooses cells among the candidates.
@@ -171,17 +172,17 @@ class Chooser {
     const auto choose_cell = [&](std::uint32_t k, std::uint8_t level) {
       std::uint8_t& now = levels[found_[k].page][found_[k].place];
       if (level <= now) return;
-      points += points_of(level, goal) - points_of(now, goal);
+      points += points_of(level, found_[k].gathers, goal) - points_of(now, found_[k].gathers, goal);
       now = level;
       chosen.push_back(k);
     };
     for (std::uint32_t k = 0; k < found_.size(); ++k)
-      if (error_[k] > goal.error) choose_cell(k, level_for(error_[k], goal));
+      if (error_[k] > goal.error) choose_cell(k, level_for(error_[k], found_[k].gathers, goal));
     for (std::size_t next = 0; next < chosen.size(); ++next) {
       const std::uint8_t own = levels[found_[chosen[next]].page][found_[chosen[next]].place];
       for_each_neighbour(chosen[next], [&](std::uint32_t k) {
         if (const double nearly = error_[k] / kNeighbour; nearly > goal.error)
-          choose_cell(k, std::min(own, level_for(nearly, goal)));
+          choose_cell(k, std::min(own, level_for(nearly, found_[k].gathers, goal)));
       });
     }
     return levels;
@@ -235,7 +236,7 @@ CellLevels choose_cells(std::span<const LightmapPage> pages, std::span<const Cel
   for (;; allowed.error *= kCoarser) {
     std::uint64_t points = 0;
     CellLevels levels = chooser.choose(allowed, points);
-    if (points <= goal.most_points) return levels;
+    if (points <= kDirectPoints * goal.most_points) return levels;
   }
 }
 

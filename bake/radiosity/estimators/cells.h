@@ -13,7 +13,7 @@ struct CellGoal {
   double error = 0;  // allowed relative error of interpolation
   double floor = 0;  // luminance, lux: errors of darker places are relative to it
   std::uint32_t most_side = kMostCellSide;
-  std::uint64_t most_points = 0;  // of all cells
+  std::uint64_t most_points = 0;  // of all cells; kDirectPoints without a gather count as one
   std::uint8_t lit_level = 0;     // points up to this level are lit already and count as none
 };
 
@@ -34,8 +34,12 @@ struct CellCandidate {
   bool contact = false;      // a corner texel is partly hidden
   bool stays = false;        // it gets no points
   bool unevaluated = false;  // texels cannot give `error`: it is a guess
-  bool gathers = true;       // its first points gather reflected light, too; else the texels' suffices
+  bool gathers = true;       // its points need reflected light, too; else direct light alone
 };
+
+// Points with direct light alone that cost as much as one that gathers; with 8 of them cells have a quarter more points
+// for the same error of frames.
+inline constexpr std::uint64_t kDirectPoints = 4;
 
 // Estimates the interpolation error of all cells. Where light has a second difference D between texels, interpolation
 // is off by about D / 4 at an edge, and n steps between texels leave 1/n of that. Noise is subtracted from D. Narrow

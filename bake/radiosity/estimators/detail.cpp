@@ -14,7 +14,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kFewPoints = 1 << 14;  // lower limit on points of a pass
-constexpr std::size_t kPointsATexel = 8;
+constexpr std::size_t kPointsATexel = 4;
 constexpr double kUsualError = 0.02;  // without a requested error
 constexpr double kNegligible = 0.4;   // of the error allowed: points of cells below it are not stored
 
@@ -59,6 +59,7 @@ class DetailMaker {
     CellLevels levels = choose_cells(light_.pages, found, first);
     ORIEL_TRY_VOID(light_cells(levels, 1, 0));
     const std::vector<CellCandidate> predicted = std::exchange(found, measured(levels, found));
+    mark_gathering(found);
     CellGoal further = goal_;
     further.lit_level = 1;
     levels = choose_cells(light_.pages, found, further);
@@ -109,8 +110,7 @@ class DetailMaker {
     if (std::ranges::all_of(levels, lacks)) return {};
     task_.context.foretell("detail", done);
     ORIEL_TRY(const DetailPoints points, list_points(task_.atlas, levels, level, task_.context));
-    const CoarserLight coarser{texel_light_, points_[0].get(), gathers_};
-    ORIEL_TRY(PointLight lit, light_points(own_, coarser, points));
+    ORIEL_TRY(PointLight lit, light_points(own_, texel_light_, points, gathers_));
     points_[level - 1u] = std::make_unique<PointLight>(std::move(lit));
     return {};
   }
@@ -124,26 +124,35 @@ class DetailMaker {
       for (CellCandidate cell : found)
         if (cell.page == p && levels[p][cell.place] > 0)
           if (const auto missed = grid.missed(cell.place % width, cell.place / width)) {
-            cell.error = std::sqrt(*missed * *missed + uneven_in(p, cell.place)) / cell.light * cell.weight;
+            const CellErrors errors = evaluate_points(p, cell.place);
+            cell.error = std::sqrt(*missed * *missed + errors.uneven) / cell.light * cell.weight;
+            cell.gathers = cell.gathers && errors.reflected_missed / cell.light * cell.weight > goal_.error;
             measured.push_back(cell);
           }
     }
     return measured;
   }
 
-  // The mean of PointLight::uneven over a cell's points. Next to a lamp light varies so much within the points that the
-  // filter takes it for noise.
-  double uneven_in(std::uint32_t page, std::uint32_t place) const {
+  // Errors in a cell by its points, luminance. Next to a lamp light varies so much within the points that the filter
+  // takes it for noise.
+  struct CellErrors {
+    double reflected_missed = 0;  // rms difference of reflected light from the texels, beyond noise
+    double uneven = 0;            // mean of PointLight::uneven
+  };
+  CellErrors evaluate_points(std::uint32_t page, std::uint32_t place) const {
     const PointLight& lit = *points_[0];
     const std::uint32_t width = light_.pages[page].width;
-    double uneven = 0, count = 0;
+    double squares = 0, uneven = 0, count = 0;
     for (std::uint32_t j = 0; j <= 2; ++j)
       for (std::uint32_t i = 0; i <= 2; ++i) {
         const std::uint32_t point = lit.texels.at(page, static_cast<int>(DetailPoints::fine(place % width, i, 2)),
                                                   static_cast<int>(DetailPoints::fine(place / width, j, 2)));
-        if (point != kNoTexel && lit.texels.visible[point] > 0) uneven += double{lit.uneven[point]}, ++count;
+        if (point == kNoTexel || lit.texels.visible[point] == 0) continue;
+        squares += std::pow(double{lit.reflected_change[point]}, 2) - double{lit.reflected_noise[point]}, ++count;
+        uneven += double{lit.uneven[point]};
       }
-    return uneven / std::max(1.0, count);
+    count = std::max(1.0, count);
+    return {std::sqrt(std::max(0.0, squares) / count), uneven / count};
   }
 
   // The remaining error of interpolation, rms over frame pixels. At an edge each further level halves the area in

@@ -7,14 +7,28 @@ namespace oriel {
 
 GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const GroupHalves& halves,
                            const FilterOptions& options, Context& context) {
-  const auto& [light, steps, additional] = halves;
+  const auto& [light, steps] = halves;
   GroupedLight out = light[0];
   const std::vector<Vec3> none(texels.count(), Vec3(0));
   for (std::size_t g = 0; g < out.groups; ++g) {
     if (light[0].is_dark(g) && light[1].is_dark(g)) continue;
-    const Halves own{
-        {light[0].of_group(g), light[1].of_group(g)}, none, additional ? additional->of_group(g) : none, steps};
+    const Halves own{{light[0].of_group(g), light[1].of_group(g)}, none, none, steps};
     out.set_group(g, filter(texels, graph, own, options, context).value);
+  }
+  return out;
+}
+
+GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const LightSums& sums,
+                           const FilterOptions& options, Context& context) {
+  GroupedLight out = filter_groups(texels, graph, GroupHalves{sums.gathered.grouped_halves(), false}, options, context);
+  const auto halves = sums.direct.grouped_halves();
+  const std::vector<Vec3> none(texels.count(), Vec3(0));
+  for (std::size_t g = 0; g < out.groups; ++g) {
+    if (sums.direct.grouped.is_dark(g)) continue;
+    const Halves own{{halves[0].of_group(g), halves[1].of_group(g)}, none, out.of_group(g)};
+    std::vector<Vec3> sum = filter(texels, graph, own, narrow(options), context).value;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own.additional[i];
+    out.set_group(g, sum);
   }
   return out;
 }

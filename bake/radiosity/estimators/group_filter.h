@@ -12,7 +12,6 @@ namespace oriel {
 struct GroupHalves {
   std::array<GroupedLight, kHalves> light;
   bool steps = true;
-  const GroupedLight* additional = nullptr;  // other light of the groups: errors are relative to the sum
 };
 // Filters each group's light by its own halves, as if only its lamps were lit: next to brighter light, the other light
 // would decide what is noise in a faint group. The groups then do not sum to the filtered light of all any more, which
@@ -23,6 +22,10 @@ struct LightSums {
   const DirectSums& direct;
   const HalfSums& gathered;
 };
+// Filters direct and gathered light of each group in that way, and returns the sum. Errors of direct light are relative
+// to the sum.
+GroupedLight filter_groups(const Texels& texels, const TexelGraph& graph, const LightSums& sums,
+                           const FilterOptions& options, Context& context);
 
 // The noise of gathered light in a single hour over that of all light, both relative to the light shown: hours of a day
 // are shown one at a time. It is measured by the unfiltered halves, as root mean squares over texels, weighted by

@@ -16,6 +16,8 @@ constexpr std::uint32_t kFirstOfPoint = 2, kMostOfPoint = 8;  // samples a half,
 constexpr float kUncertainPoint = 0.02f;                 // relative error of direct light: points above it get more
 constexpr double kUsualPointError = 0.02;                // requested error, at which a point and half gets
 constexpr std::uint32_t kGather = 16, kMostGather = 64;  // gather rays; at a smaller error more, at most
+constexpr float kNoisy = 0.05f;            // relative error of a point's gathered light: above it there are
+constexpr std::uint32_t kNoisyGather = 4;  // times as many rays
 
 // While it lives, random numbers and units of work are separate from those of texels.
 class OwnNumbers {
@@ -56,54 +58,43 @@ std::uint32_t gathered_rays(const RadiosityOptions& options) {
   return static_cast<std::uint32_t>(std::min(rays, double{kMostGather}));
 }
 
-// Interpolation at points between the visible ones of a coarser grid: texels (1 step), or first points (2 steps), whose
-// pages have a border of a texel.
-class Between {
- public:
-  Between(const Texels& coarse, std::uint32_t steps, const Texels& points, std::uint32_t side)
-      : coarse_(coarse),
-        points_(points),
-        scale_(static_cast<float>(steps) / static_cast<float>(side)),
-        border_(steps == 1 ? 1.0f : 0.0f) {}
-
-  // Calls body(number in the grid, share) for those around point i. Shares sum to 1; false if there are none.
-  template <class Body>
-  bool visit(std::size_t i, const Body& body) const {
-    const Vec2 at = Vec2(points_.x[i], points_.y[i]) * scale_ - border_;
-    const IVec2 low(glm::floor(at));
-    std::array<std::pair<std::uint32_t, float>, 4> around{};
-    float weights = 0;
-    std::size_t count = 0;
-    for (const IVec2& step : {IVec2(0, 0), IVec2(1, 0), IVec2(0, 1), IVec2(1, 1)}) {
-      const std::uint32_t number = coarse_.at(points_.page[i], low.x + step.x, low.y + step.y);
-      if (number == kNoTexel || coarse_.visible[number] == 0) continue;
-      const Vec2 share = 1.0f - glm::abs(at - Vec2(low + step));
-      around[count++] = {number, share.x * share.y}, weights += share.x * share.y;
+// Interpolates a quantity of the visible texels around point i.
+template <class OfTexel>
+Vec3 between_texels(const TexelLight& texel_light, const Texels& points, std::size_t i, std::uint32_t side,
+                    const OfTexel& of_texel) {
+  const float x = static_cast<float>(points.x[i]) / static_cast<float>(side) - 1;
+  const float y = static_cast<float>(points.y[i]) / static_cast<float>(side) - 1;
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  Vec3 sum(0);
+  float weights = 0;
+  for (int dy = 0; dy < 2; ++dy)
+    for (int dx = 0; dx < 2; ++dx) {
+      const std::uint32_t texel = texel_light.texels.at(points.page[i], x0 + dx, y0 + dy);
+      if (texel == kNoTexel || texel_light.texels.visible[texel] == 0) continue;
+      const float weight =
+          (1 - std::fabs(x - static_cast<float>(x0 + dx))) * (1 - std::fabs(y - static_cast<float>(y0 + dy)));
+      sum += weight * of_texel(texel), weights += weight;
     }
-    for (std::size_t k = 0; weights > 0 && k < count; ++k) body(around[k].first, around[k].second / weights);
-    return weights > 0;
-  }
+  return weights > 0 ? sum / weights : Vec3(0);
+}
 
-  Vec3 of(const std::vector<Vec3>& light, std::size_t i) const {
-    Vec3 sum(0);
-    if (!light.empty()) visit(i, [&](std::uint32_t number, float share) { sum += share * light[number]; });
-    return sum;
-  }
-  void add_groups(const GroupedLight& light, std::size_t i, GroupedLight& sum) const {
-    if (light.empty()) return;
-    visit(i, [&](std::uint32_t number, float share) {
-      for (std::size_t g = 0; g < light.groups; ++g) sum.of(i)[g] += share * light.of(number)[g];
-    });
-  }
-  bool any(std::size_t i) const {
-    return visit(i, [](auto...) {});
-  }
+// Light that gather rays leave out.
+Vec3 additional_at(const TexelLight& texel_light, const Texels& points, std::size_t i, std::uint32_t side) {
+  if (texel_light.additional.empty()) return Vec3(0);
+  return between_texels(texel_light, points, i, side,
+                        [&](std::uint32_t texel) { return texel_light.additional[texel]; });
+}
 
- private:
-  const Texels& coarse_;
-  const Texels& points_;
-  float scale_, border_;
-};
+// Adds additional light to the filtered light of points by group.
+GroupedLight add_additional(const TexelLight& texel_light, const Texels& points, std::uint32_t side,
+                            GroupedLight grouped) {
+  for (std::size_t i = 0; i < points.count() && !texel_light.additional_grouped.empty(); ++i)
+    for (std::size_t g = 0; g < grouped.groups; ++g)
+      grouped.of(i)[g] += between_texels(texel_light, points, i, side, [&](std::uint32_t texel) {
+        return texel_light.additional_grouped.of(texel)[g];
+      });
+  return grouped;
+}
 
 // Hides points that a wall separates from their texel, which has the light of the other side.
 void hide_separated(const TexelLight& texel_light, const DetailPoints& points, Texels& texels) {
@@ -131,105 +122,88 @@ std::vector<char> which_gather(const DetailPoints& points, const Texels& texels,
   return which;
 }
 
-// What lighting points has at hand.
-struct Points {
-  const RadiosityTask& task;
-  const CoarserLight& coarser;
-  const DetailPoints& points;
-  const Texels& texels;
-  const ExtraSamplePoints& sample_points;
-  const TexelGraph& graph;
-  std::span<const std::uint32_t> order;
-  Between between_texels{coarser.of_texels.texels, 1, texels, points.side};
-};
-
-// First points gather; those of cells that do not take the texels' reflected light, which the filter sees, too.
-Status gather_reflected(const Points& p, PointLight& result) {
-  const TexelLight& of_texels = p.coarser.of_texels;
-  Context& context = p.task.context;
-  const std::size_t n = p.texels.count(), groups = of_texels.query.groups();
-  const std::vector<char> gathers = which_gather(p.points, p.texels, p.coarser.gathers);
-  // Gather rays leave out what particles bring.
-  std::vector<Vec3> additional(n);
-  GroupedLight additional_grouped(groups > 0 ? n : 0, groups), taken = additional_grouped;
-  HalfSums gathered(n, false, groups);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (p.texels.visible[i] == 0) continue;
-    additional[i] = p.between_texels.of(of_texels.additional, i);
-    p.between_texels.add_groups(of_texels.additional_grouped, i, additional_grouped);
-    if (gathers[i]) continue;
-    p.between_texels.add_groups(of_texels.reflected_grouped, i, taken);
-    for (std::size_t g = 0; g < taken.groups; ++g) taken.of(i)[g] -= additional_grouped.of(i)[g];
-    gathered.set_assumed(i, p.between_texels.of(of_texels.reflected.value, i) - additional[i], 0, taken);
-  }
-  std::vector<std::uint32_t> list(p.order.begin(), p.order.end());
-  std::erase_if(list, [&](std::uint32_t i) { return !gathers[i]; });
-  const FinalGather final_gather{p.sample_points, of_texels.query, of_texels.cached};
-  ORIEL_TRY_VOID(final_gather.run(list, gathered_rays(p.task.options), p.task.paths, gathered));
-  result.reflected = filter(p.texels, p.graph, halves_of(gathered, context), p.task.options.filter, context);
-  result.reflected_grouped =
-      filter_groups(p.texels, p.graph, {gathered.grouped_halves(), false}, p.task.options.filter, context);
-  for (std::size_t i = 0; i < n; ++i) result.reflected.value[i] += additional[i];
-  result.reflected_grouped.add(additional_grouped);
-  return {};
+// The texels' reflected light at a point, without additional light.
+Vec3 texel_reflected(const TexelLight& texel_light, const Texels& points, std::size_t i, std::uint32_t side) {
+  return between_texels(texel_light, points, i, side,
+                        [&](std::uint32_t texel) { return texel_light.reflected.value[texel]; }) -
+         additional_at(texel_light, points, i, side);
 }
 
-// Further points interpolate between first ones, or between texels where none of these is near.
-void interpolate_reflected(const Points& p, PointLight& result) {
-  const std::size_t n = p.texels.count(), groups = p.coarser.of_texels.query.groups();
-  const Between between_first{p.coarser.first->texels, 2, p.texels, p.points.side};
-  result.reflected.value.resize(n), result.reflected.variance.resize(n);
-  result.reflected_grouped = GroupedLight(groups > 0 ? n : 0, groups);
-  const auto take = [&](const Between& between, const auto& light, std::size_t i) {
-    result.reflected.value[i] = between.of(light.reflected.value, i);
-    between.add_groups(light.reflected_grouped, i, result.reflected_grouped);
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    if (p.texels.visible[i] == 0) continue;
-    if (between_first.any(i))
-      take(between_first, *p.coarser.first, i);
-    else
-      take(p.between_texels, p.coarser.of_texels, i);
+// Sets the texels' reflected light at points that do not gather.
+void set_texel_light(const TexelLight& texel_light, const Texels& points, std::uint32_t side,
+                     std::span<const char> gathers, HalfSums& gathered) {
+  const std::size_t groups = texel_light.reflected_grouped.groups;
+  GroupedLight grouped(groups > 0 ? points.count() : 0, groups);
+  for (std::size_t i = 0; i < points.count(); ++i) {
+    if (gathers[i] || points.visible[i] == 0) continue;
+    for (std::size_t g = 0; g < groups; ++g)
+      grouped.of(i)[g] = between_texels(texel_light, points, i, side, [&](std::uint32_t texel) {
+        const Vec3 additional =
+            texel_light.additional_grouped.empty() ? Vec3(0) : texel_light.additional_grouped.of(texel)[g];
+        return texel_light.reflected_grouped.of(texel)[g] - additional;
+      });
+    gathered.set_assumed(i, texel_reflected(texel_light, points, i, side), 0, grouped);
   }
+}
+
+void keep_noisy(const Estimate& gathered, const std::vector<Vec3>& direct, std::vector<std::uint32_t>& list) {
+  std::erase_if(list, [&](std::uint32_t i) {
+    const float light = luminance(gathered.value[i] + direct[i]);
+    return !(luminance(gathered.variance[i]) > kNoisy * kNoisy * light * light);
+  });
 }
 
 }  // namespace
 
-Result<PointLight> light_points(const RadiosityTask& task, const CoarserLight& coarser, const DetailPoints& points) {
+Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& texel_light, const DetailPoints& points,
+                                std::span<const std::vector<char>> gathers) {
   Context& context = task.context;
-  const TexelLight& of_texels = coarser.of_texels;
   const OwnNumbers own(context, points);
   const LightmapScene scene{task.transport, points.atlas, points.map};
   PointLight result;
   ORIEL_TRY(result.texels,
             list_texels(scene, task.quick,
-                        {.eyes = of_texels.texels.eyes, .coarse = &of_texels.texels, .side = points.side}));
-  hide_separated(of_texels, points, result.texels);
+                        {.eyes = texel_light.texels.eyes, .coarse = &texel_light.texels, .side = points.side}));
+  hide_separated(texel_light, points, result.texels);
   const Texels& texels = result.texels;
   const std::size_t n = texels.count();
   const ExtraSamplePoints sample_points(scene, texels, context.seed);
   const std::vector<std::uint32_t> order = coherent_order(texels);
   ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, task.paths));
-  DirectSums direct(n, false, of_texels.query.groups());
+  DirectSums direct(n, false, texel_light.query.groups());
   ORIEL_TRY_VOID(light_directly(task, {task.transport, texels, sample_points, context.seed, {task.sharp, true}}, order,
                                 graph, direct));
-  const Points all{task, coarser, points, texels, sample_points, graph, order};
-  if (coarser.first)
-    interpolate_reflected(all, result);
-  else
-    ORIEL_TRY_VOID(gather_reflected(all, result));
-  const Estimate lit =
-      filter(texels, graph, halves_of(direct, result.reflected.value), narrow(task.options.filter), context);
-  result.grouped = result.reflected_grouped;
-  const GroupHalves of_groups{direct.grouped_halves(), true, &result.reflected_grouped};
-  result.grouped.add(filter_groups(texels, graph, of_groups, narrow(task.options.filter), context));
+  HalfSums gathered(n, false, texel_light.query.groups());
+  Estimate indirect;
+  const std::vector<char> which = which_gather(points, texels, gathers);
+  set_texel_light(texel_light, texels, points.side, which, gathered);
+  std::vector<std::uint32_t> list = order;
+  std::erase_if(list, [&](std::uint32_t i) { return !which[i]; });
+  const FinalGather final_gather{sample_points, texel_light.query, texel_light.cached};
+  const std::uint32_t first = gathered_rays(task.options);
+  for (std::uint32_t rays = first; rays <= kNoisyGather * first; rays *= kNoisyGather) {
+    ORIEL_TRY_VOID(final_gather.run(list, rays, task.paths, gathered));
+    indirect = filter(texels, graph, halves_of(gathered, context), task.options.filter, context);
+    keep_noisy(indirect, direct.value, list);
+    if (list.empty()) break;
+  }
+  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow(task.options.filter), context);
+  GroupedLight grouped = filter_groups(texels, graph, LightSums{direct, gathered}, task.options.filter, context);
+  result.grouped = add_additional(texel_light, texels, points.side, std::move(grouped));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter was interrupted
   result.light.resize(n), result.variance.resize(n), result.uneven.resize(n);
+  result.reflected_change.resize(n), result.reflected_noise.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     if (texels.visible[i] == 0) continue;
-    result.light[i] = glm::max(lit.value[i] + result.reflected.value[i], Vec3(0));
-    result.variance[i] = lit.variance[i] + result.reflected.variance[i];
+    result.light[i] =
+        glm::max(lit.value[i] + indirect.value[i] + additional_at(texel_light, texels, i, points.side), Vec3(0));
+    result.variance[i] = lit.variance[i] + indirect.variance[i];
     result.uneven[i] = luminance(direct.uneven[i]);
+    if (!which[i]) continue;
+    result.reflected_change[i] = luminance(indirect.value[i] - texel_reflected(texel_light, texels, i, points.side));
+    const Vec3 of_texels = between_texels(texel_light, texels, i, points.side,
+                                          [&](std::uint32_t texel) { return texel_light.reflected.variance[texel]; });
+    result.reflected_noise[i] = luminance(indirect.variance[i] + of_texels);
   }
   return result;
 }

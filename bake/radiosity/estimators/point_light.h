@@ -16,20 +16,13 @@ struct PointLight {
   std::vector<Vec3> variance;  // estimated, lux²
   std::vector<float> uneven;   // variance of direct light within the point's area, luminance, lux²
   GroupedLight grouped;        // `light` by light group; may be empty
-  // The part of `light` that gather rays find, with its variance, and by light group.
-  Estimate reflected;
-  GroupedLight reflected_grouped;
+  // Per point that gathers: luminance difference of its reflected light from the interpolated texels, lux, and the
+  // variance of that, lux². 0 for others, which take the texels' light.
+  std::vector<float> reflected_change, reflected_noise;
 };
 
-// The light that points build on: bounces, and reflected light where they do not gather.
-struct CoarserLight {
-  const TexelLight& of_texels;
-  const PointLight* first;                     // points of two steps; null: they are what is lit, and gather
-  std::span<const std::vector<char>> gathers;  // by page and place, 1 for cells whose first points gather
-};
-
-// Reflected light bends less than direct light: first points gather where it bends within texels, and further points
-// interpolate theirs. Error kStopped.
-Result<PointLight> light_points(const RadiosityTask& task, const CoarserLight& coarser, const DetailPoints& points);
+// gathers: by page and place, true for cells whose points gather light. Error kStopped.
+Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& texel_light, const DetailPoints& points,
+                                std::span<const std::vector<char>> gathers);
 
 }  // namespace oriel

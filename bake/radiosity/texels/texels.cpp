@@ -22,7 +22,7 @@ constexpr std::uint32_t kColored = 2;  // sample points of a half whose albedo i
 // Points of a partly buried texel: tried at least, tried at most, and unburied ones that suffice.
 constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kEnoughSamplePoints = 32;
 constexpr std::size_t kSparse = 16;         // pixels of a page for each of its texels: a sparser page has no table
-constexpr std::uint32_t kPointDivisor = 8;  // of these, for points of finer cells: they are small
+constexpr std::uint32_t kPointDivisor = 4;  // of these, for points of finer cells: they are small
 constexpr std::uint32_t kFewPoints = 16;    // tried where a texel lies under another body
 constexpr float kNotFound = -1;             // the visible fraction of a texel whose points were not looked for
 constexpr std::size_t kTried = 64;          // one run in so many tells how long all take

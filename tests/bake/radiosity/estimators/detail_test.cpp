@@ -71,7 +71,7 @@ TEST(DetailCells, AreChosenAlongEdgesAndNotOnSlopes) {
 
 TEST(DetailCells, AlongAnEdgeHaveAsManySteps) {
   const Listed floor(bare_floor(), 0.1f);
-  const CellGoal goal{.error = 0.04, .floor = 1, .most_points = 1 << 20};
+  const CellGoal goal{.error = 0.02, .floor = 1, .most_points = 1 << 20};
   const auto edge = lit(
       floor, [](float x, float y) { return x < 16                   ? 100.0f
                                            : std::fmod(y, 8.0f) < 4 ? 132.0f
@@ -121,6 +121,19 @@ TEST(DetailCells, GatherWhereReflectedLightBends) {
   EXPECT_TRUE(std::ranges::none_of(on_an_edge(floor, slope, false), gathers)) << "a shadow of the sun: direct light";
   EXPECT_TRUE(std::ranges::any_of(on_an_edge(floor, bend, false), gathers));
   EXPECT_TRUE(std::ranges::all_of(on_an_edge(floor, slope, true), gathers)) << "texels do not tell at contacts";
+}
+
+TEST(DetailCells, OfDirectLightAloneCostLess) {
+  const Listed floor(bare_floor(), 0.1f);
+  std::vector<CellCandidate> found = on_an_edge(
+      floor, [](float) { return 50.0f; }, false);
+  Radiosity light;
+  light.pages.push_back(lit(
+      floor, [](float, float) { return 100.0f; }, 0));
+  const CellGoal goal{.error = 0.02, .floor = 10, .most_points = 2000};
+  EXPECT_GT(count(choose_cells(light.pages, found, goal), 3), 20) << "finest all along the edge";
+  for (CellCandidate& cell : found) cell.gathers = true;
+  EXPECT_EQ(count(choose_cells(light.pages, found, goal), 3), 0) << "for as many points as gather there is no room";
 }
 
 TEST(DetailCells, LeaveStitchedSeamsAsTheyAre) {
@@ -290,7 +303,7 @@ TEST(Detail, BringsShadowsNearerToTheTruth) {
   options.detail = kMostCellSide;
   const Radiosity fine = bake();
   EXPECT_GT(fine.report.detail.cells, 10);
-  EXPECT_LT(fine.report.detail.points, 2 * (1 << 14)) << "first ones and further ones";
+  EXPECT_LT(fine.report.detail.points, 8 * (1 << 14)) << "as many as gather, a quarter of one each";
   const double cells = profile_error(floor, fine);
   EXPECT_LT(cells, 0.4 * texels) << cells << " and " << texels << " lux";
   floor.context.threads = 1;
