@@ -15,8 +15,8 @@ namespace {
 constexpr std::uint32_t kOpenRays = 128;  // per side of a patch
 constexpr float kMaxFlatness = 1e-3f;     // of a reflector's own size
 
-// Triangles that may reflect, by material: pieces of one plane are one reflector, whatever nodes they are of.
-using Groups = std::map<std::uint32_t, std::vector<std::uint32_t>>;
+// Triangles that may reflect, by node name and material: parts of one node that were split by the exporter join again.
+using Groups = std::map<std::pair<std::uint32_t, std::string>, std::vector<std::uint32_t>>;
 
 // Why a material shows no image; empty where it may.
 std::string excluded_because(const SceneMaterial& m, const ReflectorMaterial& r, const ReflectorOptions& options) {
@@ -43,7 +43,7 @@ Groups group_triangles(const Scene& scene, std::span<const ReflectorMaterial> ma
     if (surface.triangle_count == 0) continue;
     used[surface.material] = 1;
     if (!reason[surface.material].empty()) continue;
-    auto& list = groups[surface.material];
+    auto& list = groups[{surface.material, surface.name}];
     for (std::uint32_t i = 0; i < surface.triangle_count; ++i) list.push_back(surface.first_triangle + i);
   }
   for (std::size_t m = 0; m < reason.size(); ++m)
@@ -170,7 +170,8 @@ FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMat
                                    .relative_distance = kMaxFlatness,
                                    .min_distance_m = 1e-6 * radius,
                                    .min_area_m2 = options.min_area_m2};
-  for (const auto& [material, triangles] : groups) {
+  for (const auto& [key, triangles] : groups) {
+    const auto& [material, name] = key;
     double hidden = 0;
     std::size_t hidden_count = 0;
     std::vector<std::uint32_t> planar;
@@ -182,8 +183,8 @@ FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMat
     }
     if (hidden_count > 0)
       out.omitted.push_back(
-          fmt::format("material '{}' ({} planar pieces, {:.3g} m²): sees nothing further away than a tenth of its size",
-                      scene.materials[material].name, hidden_count, hidden));
+          fmt::format("'{}' ({} planar pieces, {:.3g} m²): sees nothing further away than a tenth of its size", name,
+                      hidden_count, hidden));
     std::sort(planar.begin(), planar.end());
     std::set_difference(triangles.begin(), triangles.end(), planar.begin(), planar.end(),
                         std::back_inserter(out.unplanar));

@@ -72,7 +72,7 @@ struct FoundReflectors {
   std::vector<std::uint32_t> unplanar;
 };
 
-// Coplanar triangles of one material make a reflector, connected or not. Its frame: origin in the
+// Coplanar triangles of one material in parts of one name make a reflector, connected or not. Its frame: origin in the
 // middle of its bounds, z the normal (area-weighted mean), x, y the tightest rectangle's axes, or those aligned with
 // the world where that costs no more than 1 % of area; x along the longer side. A double-sided surface reflects on each
 // side from which it can be seen. The order depends on the scene only. materials: one entry for each of the scene's.

@@ -92,18 +92,18 @@ TEST(Reflectors, AConcavePolygonIsOneReflector) {
   EXPECT_NEAR(found.reflectors[0].reflector.upper.x, 1, 1e-5);
 }
 
-TEST(Reflectors, CoplanarQuadsOfOneMaterialJoinAndOthersDoNot) {
+TEST(Reflectors, CoplanarQuadsOfOneNodeJoinAndOthersDoNot) {
   Workshop w;
   w.parts.quad("panes", 0, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  w.parts.quad("panes", 0, {1.5f, 0, 0}, {1, 0, 0}, {0, 1, 0});   // apart
+  w.parts.quad("panes", 0, {1.5f, 0, 0}, {1, 0, 0}, {0, 1, 0});   // same node, apart
   w.parts.quad("panes", 0, {0, 0, 0.05f}, {1, 0, 0}, {0, 1, 0});  // parallel
   w.parts.quad("panes", 0, {4, 0, 0}, {0, 1, 0}, {1, 0, 0});      // coplanar, facing away
-  w.parts.quad("other", 0, {-2, 0, 0}, {1, 0, 0}, {0, 1, 0});     // of another node
+  w.parts.quad("other", 0, {-2, 0, 0}, {1, 0, 0}, {0, 1, 0});     // coplanar, another node
   const FoundReflectors found = w.find();
   std::vector<std::size_t> triangles;
   for (const FoundReflector& f : found.reflectors) triangles.push_back(f.triangles.size());
-  ASSERT_EQ(triangles.size(), 3u);  // three in a plane, the parallel one, and the one facing away
-  EXPECT_EQ(triangles[0], 6u);
+  ASSERT_EQ(triangles.size(), 4u);  // the pair, the parallel one, the one facing away, and the other node
+  EXPECT_EQ(triangles[0], 4u);
 }
 
 TEST(Reflectors, RoughWeakAndEmissiveOnesAreLeftOutWithAReasonAndCurvedAndSmallOnesAreNotPlanar) {
