@@ -2,6 +2,7 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace oriel {
@@ -34,6 +35,7 @@ gltf::LoadedMesh simplified(const gltf::LoadedMesh& mesh, double share) {
     std::vector<UVec3> coarse(part.triangles.size());
     const auto most = std::max<std::size_t>(
         12, static_cast<std::size_t>(share * static_cast<double>(coarse.size())));  // 12: a box stays one
+    if (coarse.size() <= most) continue;
     coarse.resize(meshopt_simplifySloppy(&coarse.data()->x, &part.triangles.data()->x, 3 * coarse.size(),
                                          &part.positions.data()->x, part.positions.size(), sizeof(Vec3), 3 * most, 1,
                                          nullptr) /
@@ -41,7 +43,7 @@ gltf::LoadedMesh simplified(const gltf::LoadedMesh& mesh, double share) {
     std::erase_if(coarse, [&](const UVec3& t) {
       return gltf::degenerate(part.positions[t.x], part.positions[t.y], part.positions[t.z]);
     });
-    if (coarse.empty()) continue;  // it has too few to begin with
+    if (coarse.empty()) continue;
     part.triangles = std::move(coarse);
     drop_unused(part);
   }

@@ -10,7 +10,6 @@ class BesideView {
  public:
   explicit BesideView(std::unique_ptr<Other> other) : other_(std::move(other)) {}
 
-  const Other& other() const { return *other_; }
   void replace(std::unique_ptr<Other> other) { other_ = std::move(other); }
 
   // What the session asks for of the other one.

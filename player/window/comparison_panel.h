@@ -8,7 +8,7 @@ namespace oriel {
 // The panel's choices. Changes the comparison as the user does.
 void draw_comparison(ComparisonView& comparison);
 
-// Over the frame: whose it is, the divider, what FLIP's colours mean.
+// Over the frame: whose it is, the divider.
 void draw_names(const ComparisonView& comparison);
 
 }  // namespace oriel

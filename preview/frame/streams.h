@@ -6,8 +6,8 @@
 namespace oriel {
 
 enum PreviewStream : std::uint64_t {
-  kNearStream = 1,  // and those after it
-  kFarStream = 2,
+  kNearStream = 1,
+  kFarStream = 2,  // and those after it, one a kind of lamp
   kPixelStream = 0x706978,
   kEyeStream = 0x657965,
   kLandingStream = 0x656c656d,

@@ -38,6 +38,7 @@ LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& 
   remove_outliers();
   for (std::uint32_t pass = 0; pass <= side_ && spread(); ++pass) {
   }
+  around_ = {};
 }
 
 std::optional<double> LevelGrid::missed(std::uint32_t x, std::uint32_t y) const {

@@ -51,8 +51,9 @@ class LevelGrid {
   void for_each_neighbour(std::size_t k, const Body& body) const;
 
   std::uint32_t side_, width_;
-  std::vector<std::uint32_t> place_;                  // ascending
-  std::vector<std::array<std::uint32_t, 9>> around_;  // by point: itself and its neighbours; the number of points: none
+  std::vector<std::uint32_t> place_;  // ascending
+  // By point: itself and its neighbours; the number of points stands for none. Empty once the grid is made.
+  std::vector<std::array<std::uint32_t, 9>> around_;
   std::vector<Vec3> change_;
   std::vector<float> noise_;           // variance of it, luminance
   std::vector<char> own_, has_value_;  // by point: 1 with light of its own; 1 with any light

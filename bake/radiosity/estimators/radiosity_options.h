@@ -24,7 +24,7 @@ inline constexpr int kRefinements = 2;  // at most, after verification
 // texels may have kMostTexelMean rays a texel instead.
 inline constexpr std::uint64_t kDefaultMostRays = 32 << 20, kMostTexelMean = 256;
 
-// Steps along a side of a finer cell. 16 and 32 bring frames nothing for a tenth of the time.
+// Steps along a side of a finer cell. 16 and 32 bring frames little for a tenth of the time (docs/notes/radiosity.md).
 inline constexpr std::uint32_t kMostCellSide = 8;
 
 enum class Estimator : std::uint8_t {

@@ -297,16 +297,18 @@ TEST(TooManyTriangles, InstancesGetFewer) {
     g.doc["nodes"].push_back({{"mesh", shared}, {"translation", {3 * i, 0, 0}}});
     g.doc["scenes"][0]["nodes"].push_back(g.doc["nodes"].size() - 1);
   }
+  g.doc["nodes"].push_back({{"mesh", 0}, {"translation", {0, 3, 0}}});  // a mesh of one triangle
+  g.doc["scenes"][0]["nodes"].push_back(g.doc["nodes"].size() - 1);
   const Imported whole = import(g);
   ASSERT_TRUE(whole.ok()) << whole.error();
-  EXPECT_EQ(whole.scene().triangles.size(), 1u + 50 * 800);
+  EXPECT_EQ(whole.scene().triangles.size(), 2u + 50 * 800);
   ImportOptions options;
   options.most_triangles = 10'000;
   const Imported coarse = import(g, options);
   ASSERT_TRUE(coarse.ok()) << coarse.error();
   EXPECT_LE(coarse.scene().triangles.size(), 10'000u);
   EXPECT_GE(coarse.scene().triangles.size(), 2'000u);
-  EXPECT_EQ(coarse.scene().surfaces.size(), 51u);
+  EXPECT_EQ(coarse.scene().surfaces.size(), 52u);
   EXPECT_TRUE(coarse.warned("take too long for --time"));
   EXPECT_LT(glm::length(coarse.scene().upper - whole.scene().upper), 0.3f);
   EXPECT_EQ(broken_promise(coarse.scene()), "");
