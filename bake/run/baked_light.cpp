@@ -122,7 +122,7 @@ OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const Outgoin
 }
 
 std::uint32_t lobe_paths(double pixels) {
-  constexpr double kFewest = 1, kMost = 64, kAll = 2e6;
+  constexpr double kFewest = 4, kMost = 64, kAll = 8e6;
   return static_cast<std::uint32_t>(std::clamp(kAll / std::max(pixels, 1.0), kFewest, kMost));
 }
 

@@ -48,8 +48,8 @@ bool traces_lobe(const BakedScene& baked, const SeenSurface& seen);
 // The light with the lobes of these triangles traced. Both must outlive it.
 OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing);
 
-// So many paths for each of the pixels that trace one: 64, or fewer, down to 1, so that all have two million together.
-// Neighbours then average what a pixel does not.
+// So many paths for each of the pixels that trace one: 64, or fewer, down to 4, where there are so many that all maps
+// together would take longer than the lightmap. Neighbours then average what a pixel does not.
 std::uint32_t lobe_paths(double pixels);
 
 }  // namespace oriel
