@@ -193,7 +193,9 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   for (std::size_t p = 0; p < task.map.size(); ++p) {
     std::vector<LightmapPage*> groups;
     for (auto& pages : light.groups) groups.push_back(&pages[p]);
-    if (task.options.fit_texels) fit_texels(task.atlas, task.map[p], light.pages[p], groups);
+    if (task.options.fit_texels)
+      fit_texels({task.atlas, task.map[p], light.reach.empty() ? std::span<const Reach>() : light.reach[p]},
+                 light.pages[p], groups);
     if (groups_lead(task, light)) add_up_groups(&LightmapPage::irradiance, p, light);
     groups.push_back(&light.pages[p]);
     if (!light.sharp.empty()) light.sharp[p].state = light.pages[p].state, groups.push_back(&light.sharp[p]);

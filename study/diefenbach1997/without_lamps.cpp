@@ -111,7 +111,7 @@ Result<std::vector<LightmapPage>> bake_reflected(const LightmapScene& scene, con
   Radiosity light = empty_radiosity(scene.map, false);
   write_texels({known->texels, none, reflected, {}, {}, {}}, light);
   for (std::size_t p = 0; p < scene.map.size(); ++p) {
-    if (options.fit_texels) fit_texels(scene.atlas, scene.map[p], light.pages[p]);
+    if (options.fit_texels) fit_texels({scene.atlas, scene.map[p], light.reach[p]}, light.pages[p]);
     fill_buried(scene.atlas, scene.map[p], light.pages[p]);
     dilate(options.dilation, light.pages[p]);
   }

@@ -16,7 +16,6 @@ constexpr double kNextLevel = 3;    // factor of the error
 // Assumed relative error where texels cannot give one: in narrow charts, and at the rim of a chart with an occluder
 // near.
 constexpr double kUnevaluated = 0.1;
-constexpr float kWhole = 0.999f;   // of a visible texel
 constexpr double kCoarser = 1.25;  // factor of the error, until there are few enough points
 constexpr float kNoise = 3;        // standard errors of a texel: second differences by noise
 constexpr std::uint32_t kNone = ~0u;
@@ -96,7 +95,7 @@ class PageCells {
     for (const std::uint32_t corner :
          {cell.place, cell.place + 1, cell.place + page_.width, cell.place + page_.width + 1}) {
       const std::uint32_t i = number_[corner];
-      cell.contact = cell.contact || (i != kNone && visible_[i] < kWhole);
+      cell.contact = cell.contact || (i != kNone && visible_[i] < kWholeTexel);
       if (i == kNone || !valid(i)) continue;
       if (bend_[i]) bend = std::max(bend, *bend_[i]), narrow = false;
       if (!reflected_bend_.empty()) reflected_bend = std::max(reflected_bend, reflected_bend_[i]);

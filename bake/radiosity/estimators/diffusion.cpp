@@ -12,17 +12,19 @@ constexpr float kPlainSteps = 8;
 Conductance conductances(const Texels& texels, const TexelGraph& graph, const Guide& smoothed, const Guide& raw,
                          Context& context) {
   constexpr float kNoiseAlone = 3;  // standard deviations
+  const auto area_of = [&](std::size_t i) { return texels.meets_gap[i] ? 0 : texels.area_m2[i] * texels.visible[i]; };
   Conductance c(texels.count());
   each_texel(context, texels.count(), [&](std::size_t i) {
     const auto own = graph.of(i);
     for (std::size_t k = 0; k < own.size(); ++k) {
       const std::uint32_t j = own[k];
-      if (texels.visible[i] < 1 || texels.visible[j] < 1 || texels.area_m2[i] <= 0) continue;
+      const float area = area_of(i), other = area_of(j);
+      if (area <= 0 || other <= 0) continue;
       const bool tells = raw.everywhere || texels.occlusion_heavy[i] || texels.occlusion_heavy[j];
       const float beyond = tells ? std::max(0.0f, std::sqrt(raw.distance2(i, j)) - kNoiseAlone) : 0;
-      const float likeness = std::exp(-0.5f * (smoothed.distance2(i, j) + beyond * beyond));
-      const float both = std::min(texels.area_m2[i], texels.area_m2[j]) / texels.area_m2[i];
-      c[i][k] = both / (kMaxNeighbours + 1) * likeness;
+      float likeness = std::exp(-0.5f * (smoothed.distance2(i, j) + beyond * beyond));
+      if (texels.visible[i] < 1 || texels.visible[j] < 1) likeness *= raw.noise_share(i, j);
+      c[i][k] = std::min(1.0f, other / area) / (kMaxNeighbours + 1) * likeness;
     }
   });
   return c;

@@ -19,16 +19,17 @@ void each_texel(Context& context, std::size_t count, const Body& body) {
   });
 }
 
-// Conductances of the graph's edges over the area of their first texel, in the order of TexelGraph::of(). Times that
-// area they are symmetric: a texel gains as much as its neighbour loses.
+// Conductances of the graph's edges over the visible area of their first texel, in the order of TexelGraph::of(). Times
+// that area they are symmetric: a texel gains as much as its neighbour loses.
 using Conductance = std::vector<std::array<float, kMaxNeighbours>>;
 
 // A guide image of the filter: light by texel, or its deviation from its neighbourhood, with the variance of that.
 struct Guide {
   const std::vector<Vec3>& light;
   const std::vector<Vec3>& variance;
-  float strength = 1;      // factor of the standard deviations
-  bool everywhere = true;  // false: it separates occlusion-heavy texels only
+  float strength = 1;                               // factor of the standard deviations
+  bool everywhere = true;                           // false: it separates occlusion-heavy texels only
+  const std::vector<Vec3>* own_variance = nullptr;  // by the two halves of a texel alone
 
   // The squared difference of two texels over its variance, in the worst channel.
   float distance2(std::size_t i, std::size_t j) const {
@@ -36,10 +37,18 @@ struct Guide {
     const Vec3 s = (variance[i] + variance[j]) * (strength * strength) + 1e-12f * (a * a + b * b) + Vec3(1e-30f);
     return max_component(d * d / s);
   }
+  // The share of that difference, squared, that the halves of both texels tell to be noise: at most 1.
+  float noise_share(std::size_t i, std::size_t j) const {
+    if (!own_variance) return 1;
+    const Vec3 d = light[i] - light[j], noise = (*own_variance)[i] + (*own_variance)[j] + Vec3(1e-30f);
+    return 1 / std::max(1.0f, max_component(d * d / noise));
+  }
 };
 
 // Conductances by two guides. Smoothed light distinguishes a gentle slope from noise, but not a single dark texel from
-// its neighbourhood: raw light does, for differences beyond its noise. Texels partly inside other bodies have no edges.
+// its neighbourhood: raw light does, for differences beyond its noise. Light really
+// differs at the foot of a wall: a texel partly inside it has an edge as far as its own noise explains the difference.
+// Texels that meet a gap have none.
 Conductance conductances(const Texels& texels, const TexelGraph& graph, const Guide& smoothed, const Guide& raw,
                          Context& context);
 

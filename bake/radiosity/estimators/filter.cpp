@@ -14,7 +14,7 @@ constexpr float kFirstScale = 6, kNextScale = 4, kPooledOver = 4;
 double total(const Texels& texels, const std::vector<Vec3>& values) {
   double sum = 0;
   for (std::size_t i = 0; i < values.size(); ++i)
-    sum += double{texels.area_m2[i]} * (double{values[i].r} + values[i].g + values[i].b);
+    sum += double{texels.area_m2[i]} * double{texels.visible[i]} * (double{values[i].r} + values[i].g + values[i].b);
   return sum;
 }
 
@@ -191,11 +191,12 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
                 Context& context) {
   const std::size_t n = texels.count();
   const auto& half = halves.light;
-  std::vector<Vec3> noise(n), mean(n);
+  std::vector<Vec3> noise(n), mean(n), own_variance(n);
   each_texel(context, n, [&](std::size_t i) {
     const Vec3 d = half[0][i] - half[1][i];
     mean[i] = 0.5f * (half[0][i] + half[1][i]);
     noise[i] = 0.5f * d * d;  // variance of one half
+    own_variance[i] = 0.25f * d * d;
   });
   const auto pool = [&](std::vector<Vec3> squares, std::vector<Vec3> light) {
     for (std::size_t i = 0; i < n; ++i) light[i] += halves.additional[i];
@@ -218,10 +219,11 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
   }
   std::vector<Vec3> guide_variance = noise;
   for (std::size_t i = 0; i < n; ++i) guide_variance[i] *= 0.5f * 3 * remaining_noise(graph.of(i).size());
-  for (Vec3& v : raw_variance) v *= 0.5f;
+  // A firefly has noise of its own beyond what its neighbours have.
+  for (std::size_t i = 0; i < n; ++i) raw_variance[i] = glm::max(0.5f * raw_variance[i], own_variance[i]);
   const std::vector<Vec3> apart = halves.steps ? guide : deviation_from_neighbours(graph, guide, context);
   const Conductance edges = conductances(texels, graph, {apart, guide_variance, options.strength},
-                                         {mean, raw_variance, 1, halves.steps}, context);
+                                         {mean, raw_variance, 1, halves.steps, &own_variance}, context);
   TwoHalves smooth = half;
   smooth_by_scales({graph, edges}, relative_to(texels, guide, halves.additional), options.scales, smooth, context);
   each_texel(context, n, [&](std::size_t i) { guide[i] = 0.5f * (smooth[0][i] + smooth[1][i]); });

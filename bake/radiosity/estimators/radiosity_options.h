@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "bake/atlas/texel_map.h"
+#include "bake/radiosity/texels/reach.h"
 #include "bake/trace/path.h"
 #include "formats/assets/lightmap.h"
 #include "formats/assets/sharp_light.h"
@@ -160,6 +161,7 @@ struct Radiosity {
   // Visible fraction of each covered texel, by page and index into TexelMapPage::texel: neither inside other geometry
   // nor behind a wall on the texel (TexelPart). All 1 with Hidden::kBlack, which has it in the light.
   std::vector<std::vector<float>> visible;
+  std::vector<std::vector<Reach>> reach{};  // of the sampled parts, likewise; empty with unbiased paths
   // While pages hold light without it: the sharp light of texels, by page. Later LightmapPage::sharp has it.
   std::vector<LightmapPage> sharp{};
   // Texels, by page, whose light is that of near ones, for want of time.

@@ -21,11 +21,14 @@ void rescale_all_groups(const std::vector<Vec3>& whole, std::size_t groups, cons
 void write_texels(const TexelEstimate& estimate, Radiosity& light) {
   const Texels& texels = estimate.texels;
   light.assumed.resize(light.pages.size());
+  light.reach.clear();
+  for (const auto& page : light.visible) light.reach.emplace_back(page.size());
   for (std::size_t k = 0; k < texels.count(); ++k) {
     LightmapPage& page = light.pages[texels.page[k]];
     const std::size_t texel = std::size_t{texels.y[k]} * page.width + texels.x[k];
     const std::uint32_t i = texels.shown_by(static_cast<std::uint32_t>(k));
     light.visible[texels.page[k]][texels.index[k]] = i == k ? texels.visible[k] : 1;
+    if (i == k) light.reach[texels.page[k]][texels.index[k]] = texels.reach[k];
     page.state[texel] = i == k && texels.visible[k] > 0 ? TexelState::kValid : TexelState::kBuried;
     if (i != k) light.assumed[texels.page[k]].push_back(static_cast<std::uint32_t>(texel));
     if (i == kNoTexel || texels.visible[i] == 0) continue;

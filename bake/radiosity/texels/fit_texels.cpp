@@ -5,30 +5,42 @@
 namespace oriel {
 namespace {
 
-constexpr int kIterations = 8;    // the finest pattern is left at (3/4)^8, a tenth
-constexpr float kWhole = 0.999f;  // of a texel's square
-constexpr float kNoiseGate = 2;   // standard errors
+constexpr int kIterations = 8;   // the finest pattern is left at (3/4)^8, a tenth
+constexpr float kNoiseGate = 2;  // standard errors
 constexpr std::uint32_t kNone = ~0u;
 
 constexpr std::array<std::array<int, 2>, 8> kNeighbourSteps = {
     {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
-// Weights of the texels around one in the mean of the interpolation over its square.
-constexpr std::array<float, 8> kShare = {6.f / 64, 6.f / 64, 6.f / 64, 6.f / 64,
-                                         1.f / 64, 1.f / 64, 1.f / 64, 1.f / 64};
 
 struct FittedTexel {
   std::uint32_t texel = 0;                    // of the page
   std::array<std::uint32_t, 8> neighbours{};  // in kNeighbourSteps's order, of the list; itself where there is none
+  std::array<float, 8> share{};               // of these in the mean of the interpolation over the sampled part
   bool whole = false;
 };
 
-std::vector<FittedTexel> valid_texels(const Atlas& atlas, const TexelMapPage& map, const LightmapPage& page) {
+// All 0: the value is the mean.
+std::array<float, 8> shares_of(const Reach& reach) {
+  const auto along = [&](int axis, int step) {
+    const float before = reach.before[axis], after = reach.after[axis];
+    return step < 0 ? before : step > 0 ? after : 1 - before - after;
+  };
+  std::array<float, 8> share{};
+  for (std::size_t n = 0; n < share.size(); ++n)
+    share[n] = along(0, kNeighbourSteps[n][0]) * along(1, kNeighbourSteps[n][1]);
+  return share;
+}
+
+std::vector<FittedTexel> valid_texels(const SampledPage& sampled, const LightmapPage& page) {
+  const auto& [atlas, map, reach] = sampled;
   std::vector<FittedTexel> list;
   std::vector<std::uint32_t> number(page.state.size(), kNone), chart;
   for (std::size_t i = 0; i < map.texel.size(); ++i) {
     if (page.state[map.texel[i]] != TexelState::kValid) continue;
     number[map.texel[i]] = static_cast<std::uint32_t>(list.size());
-    list.push_back({.texel = map.texel[i], .neighbours = {}, .whole = covered_share(map, i) > kWhole});
+    const bool whole = covered_share(map, i) > kWholeTexel && (reach.empty() || reach[i].whole());
+    list.push_back({.texel = map.texel[i], .whole = whole});
+    if (whole || !reach.empty()) list.back().share = shares_of(reach.empty() ? Reach() : reach[i]);
     chart.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);
   }
   const auto width = static_cast<int>(page.width), height = static_cast<int>(page.height);
@@ -51,12 +63,17 @@ std::vector<Vec3> fitted_to(const std::vector<FittedTexel>& list, const std::vec
   for (std::size_t k = 0; k < list.size(); ++k)
     for (const std::uint32_t other : list[k].neighbours)
       lower[k] = glm::min(lower[k], mean[other]), upper[k] = glm::max(upper[k], mean[other]);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (list[k].whole) continue;
+    const Vec3 down = upper[k] - mean[k], up = mean[k] - lower[k];
+    lower[k] = glm::max(glm::min(lower[k], mean[k] - down), Vec3(0)), upper[k] = glm::max(upper[k], mean[k] + up);
+  }
   std::vector<Vec3> fitted = mean, next = mean;
   for (int i = 0; i < kIterations; ++i) {
     for (std::size_t k = 0; k < list.size(); ++k) {
-      if (!list[k].whole) continue;
       Vec3 change = mean[k] - fitted[k];
-      for (std::size_t n = 0; n < kShare.size(); ++n) change -= kShare[n] * (fitted[list[k].neighbours[n]] - fitted[k]);
+      for (std::size_t n = 0; n < list[k].share.size(); ++n)
+        change -= list[k].share[n] * (fitted[list[k].neighbours[n]] - fitted[k]);
       next[k] = glm::clamp(fitted[k] + change, lower[k], upper[k]);
     }
     std::swap(fitted, next);
@@ -72,9 +89,8 @@ std::vector<Vec3> means_of(const std::vector<FittedTexel>& list, const LightmapP
 
 }  // namespace
 
-void fit_texels(const Atlas& atlas, const TexelMapPage& map, LightmapPage& page,
-                std::span<LightmapPage* const> groups) {
-  const std::vector<FittedTexel> list = valid_texels(atlas, map, page);
+void fit_texels(const SampledPage& sampled, LightmapPage& page, std::span<LightmapPage* const> groups) {
+  const std::vector<FittedTexel> list = valid_texels(sampled, page);
   const std::vector<Vec3> mean = means_of(list, page), fitted = fitted_to(list, mean);
   std::vector<float> weight(list.size());
   for (std::size_t k = 0; k < list.size(); ++k) {

@@ -66,17 +66,20 @@ class SamplePointFinder {
   Found find_of_texel(Texels& texels, std::size_t i, std::uint64_t& rays) const {
     const std::uint64_t stream = stream_of(texels, i);
     std::vector<ShadePoint> shade;
+    ReachSum reach;
     int buried = 0;
     bool near_occluder = false;
     for (int k = 0; k < kSamplePoints; ++k) {
       const SurfacePoint surface = stored_candidate(texels, i, k);
       texels.sample_points[i][k] = sample_point_of(surface);
+      reach.add(texels.offset(i, surface.triangle, surface.barycentric));
       buried += is_buried(t_, surface, {seed_, stream, static_cast<std::uint32_t>(k)}, rays);
       near_occluder = near_occluder || hits_near_occluder(texels, i, k, stream, rays);
       if (static_cast<std::uint32_t>(k % kSamplePointsPerHalf) < kColored) shade.push_back(shade_at(surface));
     }
     set_means(shade, texels, i);
     texels.visible[i] = 1;
+    if (texels.covered[i] < kWholeTexel) texels.reach[i] = reach.mean();
     Found found{TexelPart(t_, {scene_.atlas, scene_.map[texels.page[i]], texels.index[i]}, views_, rays), {}};
     if (found.part.covered())
       find_unburied(texels, i, kFewPoints, found, rays);
@@ -92,9 +95,11 @@ class SamplePointFinder {
                      std::uint64_t& rays) const {
     const std::uint64_t stream = stream_of(texels, i);
     std::vector<ShadePoint> shade;
+    ReachSum reach;
     const std::uint32_t most = kMostPoints / divisor_, enough_points = kEnoughSamplePoints / divisor_;
     std::uint32_t tried = 0, total = 0;
     bool in_sight = false;
+    texels.meets_gap[i] = found.part.has_lamp();
     ViewSamples::Nearest eyes;
     // A texel is visible if a sixteenth of the points are and no body covers it, or if a view sees one of its points.
     const auto enough = [&] {
@@ -106,20 +111,25 @@ class SamplePointFinder {
       const int half = static_cast<int>(k % kHalves);
       const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
       if (is_buried(t_, surface, {seed_, stream, kSamplePoints + k}, rays) ||
-          !found.part.holds(surface.triangle, surface.barycentric, rays) ||
-          !views_.sees(surface, texels.gap_reach(i), {seed_, stream, k}, eyes, rays))
+          !found.part.holds(surface.triangle, surface.barycentric, rays))
         continue;
+      if (!views_.sees(surface, texels.gap_reach(i), {seed_, stream, k}, eyes, rays)) {
+        texels.meets_gap[i] = true;
+        continue;
+      }
       const bool needs_view = found.part.covered() || (!in_sight && (total + 1) * 16 <= tried);
       const bool seen = needs_view && views_.any() && sees(surface, eyes, rays);
       if (found.part.covered() && !seen) continue;
       in_sight = in_sight || seen;
       if (!coarse_) shade.push_back(shade_at(surface));
       found.points[half].push_back(sample_point_of(surface));
+      reach.add(texels.offset(i, surface.triangle, surface.barycentric));
       ++total;
     }
     texels.visible[i] = enough() ? static_cast<float>(total) / static_cast<float>(tried) : 0.0f;
     set_means(shade, texels, i);
     if (!enough()) found.points = {};
+    if (enough() && texels.visible_fraction(i) < kWholeTexel) texels.reach[i] = reach.mean();
     for (std::size_t k = 0; enough() && k < kSamplePoints; ++k) {
       const auto& points = found.points[k / kSamplePointsPerHalf];
       texels.sample_points[i][k] = points[k % kSamplePointsPerHalf % points.size()];
@@ -251,7 +261,7 @@ Texels::Place Texels::place(std::uint32_t triangle, const Vec2& b) const {
 Texels::Place Texels::place_of_own_light(std::uint32_t triangle, const Vec2& b) const {
   const Placement& where = placement[triangle];
   if (where.page < 0) return {};
-  const Vec2 p = where.corner + b.x * where.edge1 + b.y * where.edge2;
+  const Vec2 p = where.at(b);
   const int px = static_cast<int>(p.x), py = static_cast<int>(p.y);
   const auto page_number = static_cast<std::uint32_t>(where.page);
   if (const std::uint32_t texel = at(page_number, px, py); texel != kNoTexel) {
@@ -289,7 +299,7 @@ bool Texels::open_around(std::uint32_t page_number, const Vec2& at_place) const 
 bool Texels::parts(std::uint32_t triangle, const Vec2& b) const {
   const Placement& place = placement[triangle];
   if (place.page < 0) return false;
-  const Vec2 p = place.corner + b.x * place.edge1 + b.y * place.edge2;
+  const Vec2 p = place.at(b);
   const std::uint32_t texel = at(static_cast<std::uint32_t>(place.page), static_cast<int>(p.x), static_cast<int>(p.y));
   std::uint64_t rays = 0;
   return texel != kNoTexel && is_cut[texel] && !cut.at(texel).holds(triangle, b, rays);
@@ -334,8 +344,9 @@ Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, Texel
   Texels texels = place_texels(atlas, texel_map);
   texels.eyes.assign(use.eyes.begin(), use.eyes.end());
   const std::size_t n = texels.count();
-  texels.sample_points.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
-      texels.diffuse_share.resize(n), texels.occlusion_heavy.resize(n), texels.is_cut.resize(n);
+  texels.sample_points.resize(n), texels.visible.resize(n), texels.reach.resize(n), texels.area_m2.resize(n),
+      texels.albedo.resize(n), texels.diffuse_share.resize(n), texels.occlusion_heavy.resize(n),
+      texels.is_cut.resize(n), texels.meets_gap.resize(n);
   place_triangles(atlas, texels);
   ORIEL_TRY_VOID(afford_points(scene, stage, use, texels));
   texels.visible.assign(n, kNotFound);
@@ -361,7 +372,8 @@ Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, Texel
   };
   loop.results = [&](std::size_t run, Archive& archive) {
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i)
-      archive(texels.sample_points[i], texels.visible[i], texels.area_m2[i], texels.albedo[i], texels.diffuse_share[i]);
+      archive(texels.sample_points[i], texels.visible[i], texels.reach[i], texels.area_m2[i], texels.albedo[i],
+              texels.diffuse_share[i], texels.meets_gap[i]);
     std::uint64_t count = hidden[run].size();
     archive(count);
     while (hidden[run].size() > count) hidden[run].pop_back();

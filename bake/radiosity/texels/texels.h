@@ -8,6 +8,7 @@
 
 #include "bake/radiosity/texels/diffuse_share.h"
 #include "bake/radiosity/texels/lightmap_scene.h"
+#include "bake/radiosity/texels/reach.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/trace/polygon_light.h"
 
@@ -45,8 +46,10 @@ struct Texels {
   // side. Light varies more over them.
   std::unordered_map<std::uint32_t, std::array<std::vector<SamplePoint>, kHalves>> extra_points;
   std::vector<char> occlusion_heavy;  // true if the texel is in extra_points
+  std::vector<char> meets_gap;        // true if a lamp hangs over part of it, or part of it lies in a hidden gap
   std::vector<float> visible;         // fraction neither inside other geometry nor in a gap; 0: no sample point
   std::vector<float> covered;         // fraction with a surface
+  std::vector<Reach> reach;
   std::vector<float> area_m2;
   std::vector<Vec3> albedo;  // diffuse, mean over the texel
   std::vector<DiffuseShare> diffuse_share;
@@ -69,6 +72,10 @@ struct Texels {
     return std::min(kGapReach_m, kGapTexels * std::sqrt(area_m2[i] / std::max(covered[i], 0.1f)));
   }
   float visible_fraction(std::size_t i) const { return covered[i] * visible[i]; }  // of the square
+  // A point of the texel's surface, from the texel's middle, in texels of the page.
+  Vec2 offset(std::size_t i, std::uint32_t triangle, const Vec2& barycentric) const {
+    return placement[triangle].at(barycentric) - Vec2(x[i], y[i]) - 0.5f;
+  }
 
   std::uint32_t sample_point_count(std::uint32_t i, int half) const {
     return occlusion_heavy[i] ? static_cast<std::uint32_t>(extra_points.at(i)[half].size()) : kSamplePointsPerHalf;
@@ -121,6 +128,8 @@ struct Texels {
   struct Placement {  // of a triangle on its page, in texels
     Vec2 corner{0}, edge1{0}, edge2{0};
     std::int32_t page = -1;
+
+    Vec2 at(const Vec2& barycentric) const { return corner + barycentric.x * edge1 + barycentric.y * edge2; }
   };
   std::vector<Placement> placement;
 

@@ -17,8 +17,9 @@ using test::SceneParts;
 constexpr std::uint64_t kManyRays = 4'000'000;
 
 Baked certified_room(double error, double verify = 0) {
-  return test::bake(test::room(test::Feature::kMatt), 0.15f,
-                    {.estimator = Estimator::kCached, .samples = 4096, .error = error, .verify = verify});
+  return test::bake(
+      test::room(test::Feature::kMatt), 0.15f,
+      {.estimator = Estimator::kCached, .samples = 4096, .error = error, .verify = verify, .fit_texels = true});
 }
 
 // Pixels that no bake knows.

@@ -15,13 +15,13 @@ namespace {
 
 // A floor of 3 m under a lamp, a board above it that throws a wide penumbra, and a wall that stands on it: its shadow
 // is sharp where they meet.
-Scene shadows() {
+Scene shadows(const Vec3& wall_moves = Vec3(0)) {
   SceneParts parts;
   const auto matt = parts.diffuse(Vec3(0.5f));
   parts.quad("floor", matt, {0, 0, 0}, {0, 0, 3}, {3, 0, 0});
   parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(100)), {1, 2.5f, 1}, {1, 0, 0}, {0, 0, 1});
   parts.box("board", matt, {0.2f, 1.2f, 0.4f}, {1.2f, 1.25f, 1.6f});
-  parts.box("wall", matt, {2.2f, 0, 0.5f}, {2.3f, 0.3f, 2.5f});
+  parts.box("wall", matt, Vec3(2.2f, 0, 0.5f) + wall_moves, Vec3(2.3f, 0.3f, 2.5f) + wall_moves);
   return parts.finish();
 }
 
@@ -96,6 +96,35 @@ TEST(Filter, LeavesNoDots) {
   EXPECT_LT(dots, open / 300);
   EXPECT_LT(dots_at_ends, at_ends / 16) << "where few neighbours smooth the guide";
   EXPECT_LT(std::fabs(smooth.energy_drift), 5e-4);
+}
+
+// At the foot of a wall a ray that met something bright brings one half of one texel as much light again and more. What
+// both halves show there is light.
+TEST(Filter, SmoothsTexelsAtTheFootOfAWall) {
+  Shadows s{.listed = {shadows({-0.02f, -0.1f, 0.02f}), 0.05f}};
+  const Texels& texels = s.listed.texels;
+  std::vector<std::uint32_t> foot;
+  for (const std::uint32_t i : s.listed.floor)
+    if (texels.visible[i] > 0 && texels.visible[i] < 1 && !texels.meets_gap[i]) foot.push_back(i);
+  ASSERT_GT(foot.size(), 40u);
+  for (const bool in_both : {false, true}) {
+    HalfSums sums(texels.count(), false);
+    for (const std::uint32_t i : s.listed.floor) {
+      sums.samples[i] = 1;
+      for (int h = 0; h < kHalves; ++h)
+        sums.sum[h][i] = Vec3(99 + static_cast<float>(mix64(i * 2 + static_cast<std::uint32_t>(h)) % 3));
+    }
+    for (std::size_t k = 0; k < foot.size(); k += in_both ? 1 : 10)
+      for (int h = 0; h < (in_both ? 2 : 1); ++h) sums.sum[h][foot[k]] *= 3;
+    const Estimate smooth = filter(texels, s.graph, halves_of(sums, s.listed.context), {}, s.listed.context);
+    for (const std::uint32_t i : foot) {
+      if (in_both)
+        EXPECT_GT(smooth.value[i].g, 250) << i;
+      else
+        EXPECT_LT(smooth.value[i].g, 130) << i << ", of " << sums.mean(i).g;
+    }
+    EXPECT_LT(std::fabs(smooth.energy_drift), 5e-4);
+  }
 }
 
 // What light tells of a texel alone parts it from its neighbours at a contact, and everywhere only where light may

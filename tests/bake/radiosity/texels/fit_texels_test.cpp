@@ -70,7 +70,7 @@ double error(const Sheet& s, const Light& light) {
 }
 
 Sheet fitted(Sheet s) {
-  fit_texels(s.atlas, s.map, s.page);
+  fit_texels({s.atlas, s.map}, s.page);
   return s;
 }
 
@@ -126,6 +126,41 @@ TEST(FitTexels, NoiseStaysAsItIs) {
   EXPECT_LT(error(fitted(noisy), even), 1.06 * before);
   for (const std::uint32_t t : noisy.map.texel) noisy.page.standard_error[t] = Vec3(0);
   EXPECT_GT(error(fitted(noisy), even), 1.12 * before) << "without the gate it is: the test shows something";
+}
+
+// Light that falls towards a wall, or the rim of a chart, beyond which texels have nothing: the texel there was sampled
+// on one side of its middle, over a part of its square.
+TEST(FitTexels, PartsOfTexelsAreShownWhereTheyWereSampled) {
+  constexpr int kLast = 20;  // texels of the page
+  const Light light = [](float x, float y) { return 30 - x + 0.1f * y; };
+  for (const float part : {0.1f, 0.3f, 0.5f, 0.8f}) {
+    Sheet s = sheet(light);
+    std::vector<Reach> reach(s.map.texel.size());
+    for (std::size_t i = 0; i < s.map.texel.size(); ++i) {
+      const std::uint32_t t = s.map.texel[i];
+      if (const int x = static_cast<int>(t % s.page.width); x > kLast)
+        s.page.state[t] = TexelState::kBuried;
+      else if (x == kLast) {
+        ReachSum sum;
+        for (int k = 0; k < 64; ++k)
+          sum.add(
+              {part * (static_cast<float>(k / 8) + 0.5f) / 8 - 0.5f, (static_cast<float>(k % 8) + 0.5f) / 8 - 0.5f});
+        reach[i] = sum.mean();
+        s.page.irradiance[t] = Vec3(light(kLast + 0.5f * part, static_cast<float>(t / s.page.width) + 0.5f));
+      }
+    }
+    const auto worst = [&](const LightmapPage& page) {
+      double most = 0;
+      for (float y = 10; y < 20; y += 0.1f)
+        for (float x = 0; x < part; x += 0.05f)
+          most = std::max(most, std::fabs(double{shown(page, kLast + x, y)} - double{light(kLast + x, y)}));
+      return most;
+    };
+    const double before = worst(s.page);
+    fit_texels({s.atlas, s.map, reach}, s.page);
+    // Beyond the last middle there is nothing to interpolate with.
+    EXPECT_LT(worst(s.page), part > 0.5f ? part - 0.5 : 0.1 * before) << part << " of a texel";
+  }
 }
 
 TEST(FitTexels, NothingIsReadFromBuriedTexels) {
