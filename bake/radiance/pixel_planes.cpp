@@ -8,7 +8,6 @@
 namespace oriel {
 namespace {
 
-constexpr int kMostHidden = 16;      // surfaces in front of one that a residual shows
 constexpr float kSamePlane = 1e-3f;  // relative: of a surface that is looked at again
 constexpr float kEdgeOn = 1e-4f;     // cosine at which a plane has no image
 
@@ -33,20 +32,11 @@ PixelPlane plane_of(const ReflectedSurroundings& surroundings, const RadianceMap
   const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
   const CaptureRay ray = capture_ray(reflector, map, Vec2(at % map.width, at / map.width) + 0.5f);
   const Mat3 to_reflector = glm::transpose(Mat3(reflector.pack_from_reflector));
-  Vec3 from = ray.from;
-  for (int hidden = 0; hidden < kMostHidden; ++hidden) {
-    const Sight sight = surroundings.look(map.reflector, from, ray.direction, is_depth_enough);
-    const float step = glm::length(sight.offset);
-    if (!(step > 0)) return plane;
-    const Vec3 p = reflector_from_pack(reflector, from + sight.offset);
-    const float found = disparity_of(map, p.z);
-    if (std::abs(found - plane.disparity) <= kSamePlane * plane.disparity + 1e-6f) {
-      plane.slope = slope_of(map, p, to_reflector * sight.normal);
-      return plane;
-    }
-    if (found < plane.disparity || sight.mirrored || !map.residual) return plane;
-    from += ray.direction * (step * (1 + 1e-5f));
-  }
+  const Sight sight = surroundings.look(map.reflector, ray.from, ray.direction, is_depth_enough);
+  if (!(glm::length(sight.offset) > 0)) return plane;
+  const Vec3 p = reflector_from_pack(reflector, ray.from + sight.offset);
+  if (std::abs(disparity_of(map, p.z) - plane.disparity) <= kSamePlane * plane.disparity + 1e-6f)
+    plane.slope = slope_of(map, p, to_reflector * sight.normal);
   return plane;
 }
 

@@ -132,7 +132,7 @@ class Planner {
             needed_resolution(surroundings_, reflector, element.candidates[c], window, samples[s]);
     }));
     const ElementGrid grid = element_grid(window.upper - window.lower, options_.element_m, options_.max_elements);
-    constexpr std::uint32_t kMost = kMostMapsPerElement - 1;  // leaves a place for a residual
+    constexpr std::uint32_t kMost = kMostMapsPerElement;
     const std::uint32_t most = std::min(std::min(options_.choice.max_maps, kMost) * grid.x * grid.y, kMost);
     const double price = price_for(surroundings_.reflectors()[reflector], options_.pixel_price);
     for (const std::uint32_t resolution : options_.choice.resolutions)

@@ -9,8 +9,8 @@ namespace oriel {
 
 struct PlannedViewOptions {
   std::span<const Vec3> eyes{};  // scene space: for whom maps are planned
-  ChoiceOptions choice;          // max_maps: of an element of element_m; larger ones get as many times more, but with a
-                                 // residual no more than kMostMapsPerElement
+  ChoiceOptions choice;          // max_maps: of an element of element_m; larger ones get as many times more, but no
+                                 // more than kMostMapsPerElement
   float element_m = 3;           // metres: the paper's
   std::uint32_t samples = 4096;  // for each element_m square, at most for four of a reflector
   std::uint32_t hemisphere = 64;      // candidates: the paper's

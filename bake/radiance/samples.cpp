@@ -51,22 +51,6 @@ class SurfacePoints {
   std::vector<double> area_until_;
 };
 
-// Whether one of the four pixels around the sample's place holds it.
-bool shows_in_residual(const RadianceMap& map, const ReflectedSample& s) {
-  const bool sky = s.image.w == 0;
-  const Vec2 pixel = map_pixel(map, s) - 0.5f;
-  const float disparity = sky ? 0 : disparity_of(map, s.image.z);
-  for (const Vec2& corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(1, 1)}) {
-    const Vec2 at = glm::floor(pixel) + corner;
-    if (at.x < 0 || at.y < 0 || at.x >= static_cast<float>(map.width) || at.y >= static_cast<float>(map.height))
-      continue;
-    const std::size_t i = static_cast<std::size_t>(at.y) * map.width + static_cast<std::size_t>(at.x);
-    if (map.valid[i] == (sky ? 2 : 1) && std::abs(map.disparity[i] - disparity) <= kSameDisparity * disparity)
-      return true;
-  }
-  return false;
-}
-
 bool shows_sky(const Scene& scene) {
   return max_component(scene.sky) > 0 || !scene.sky_image.texels.empty();
 }
@@ -194,20 +178,15 @@ float needed_resolution(const ReflectedSurroundings& surroundings, std::uint32_t
 
 namespace {
 
-enum Shown : std::uint8_t { kNot, kInResidual, kSeen, kSharp };
+enum Shown : std::uint8_t { kNot, kSeen, kSharp };
 
 Shown shown_by(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
-  if (map.residual) return shows_in_residual(map, s) ? kInResidual : kNot;
   const float needed = needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s);
   if (!std::isfinite(needed)) return kNot;
   return needed <= static_cast<float>(std::max(map.width, map.height)) ? kSharp : kSeen;
 }
 
 }  // namespace
-
-bool shows(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& sample) {
-  return shown_by(surroundings, map, sample) != kNot;
-}
 
 ViewQuality judge_maps(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps,
                        std::span<const ReflectedSample> samples, Context& context) {
@@ -221,12 +200,10 @@ ViewQuality judge_maps(const ReflectedSurroundings& surroundings, std::span<cons
   for (std::size_t i = 0; i < samples.size() && status; ++i) {
     const double weight = samples[i].weight;
     total += weight;
-    quality.seen += found[i] >= kInResidual ? weight : 0;
+    quality.seen += found[i] != kNot ? weight : 0;
     quality.sharp += found[i] == kSharp ? weight : 0;
-    quality.residual += found[i] == kInResidual ? weight : 0;
   }
-  if (total > 0)
-    for (double* share : {&quality.seen, &quality.sharp, &quality.residual}) *share /= total;
+  if (total > 0) quality.seen /= total, quality.sharp /= total;
   return quality;
 }
 

@@ -47,16 +47,11 @@ float needed_resolution(const ReflectedSurroundings& surroundings, std::uint32_t
 // everywhere.
 Vec2 map_pixel(const RadianceMap& map, const ReflectedSample& sample);
 
-// Whether the map shows the sample; a residual one is captured.
-bool shows(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& sample);
-
 // Shares of the samples' weight.
 struct ViewQuality {
-  double seen = 0, sharp = 0;  // by any of the maps; seen in residual maps too
-  double residual = 0;         // seen in residual maps alone
+  double seen = 0, sharp = 0;  // by any of the maps
   double worst = 1;            // seen by that camera which sees least; 1 without cameras
 };
-// Residual maps are captured.
 ViewQuality judge_maps(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps,
                        std::span<const ReflectedSample> samples, Context& context);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kTried = 8;       // by which a map's sides are divided to time its capture
 constexpr std::uint32_t kLeastSide = 16;  // of a map that is made smaller
 constexpr double kTriangleBytes = 12;     // of a pack, about: checked and written
-constexpr double kJudging = 0.3;          // of the seconds of planning: residual maps and held-out eyes
+constexpr double kJudging = 0.3;          // of the seconds of planning: held-out eyes
 
 // What capturing all surround maps takes, by a 64th of their texels.
 Result<double> surround_seconds(const BakedScene& baked, const FoundReflections& all, std::uint32_t paths,

@@ -13,8 +13,8 @@ void leave_out_maps(const Warning& why, PlannedReflections& planned);
 // Halves the sides of all maps until capture is likely to take no more than `seconds`, or the maps are tiny.
 void shrink_maps(double seconds, PlannedReflections& planned);
 
-// Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
-// residual maps go by what planning took. `dark` gets a lightmap for it. Error kStopped.
+// Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging goes
+// by what planning took. `dark` gets a lightmap for it. Error kStopped.
 Status time_reflections(const BakeTask& bake, Pack& dark, PlannedReflections& planned);
 
 // Of a pack: its mesh, lightmaps and planned maps.

@@ -36,16 +36,14 @@ std::optional<Vec3> colour_at(const RadianceMap& map, const ReflectedSample& s) 
   return sum / weight;
 }
 
-// What the maps show of a sample: that which is sharpest there first, residual maps last.
+// What the maps show of a sample: that which is sharpest there first.
 std::optional<Vec3> shown(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps,
                           const ReflectedSample& s) {
   std::optional<Vec3> best;
   float sharpest = std::numeric_limits<float>::infinity();
   for (const RadianceMap& map : maps) {
-    const float needed = map.residual
-                             ? std::numeric_limits<float>::max()
-                             : needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s) /
-                                   static_cast<float>(std::max(map.width, map.height));
+    const float needed = needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s) /
+                         static_cast<float>(std::max(map.width, map.height));
     if (!(needed < sharpest)) continue;
     if (const auto colour = colour_at(map, s)) best = colour, sharpest = needed;
   }

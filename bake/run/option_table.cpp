@@ -104,7 +104,7 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        choice(o.target, {{"cpu", DrawnOn::kCpu}, {"gpu", DrawnOn::kGpu}}), Use::kRare, "target",
        "oriel-bake.md#reflections"},
       {"--views", kReflections,
-       "Viewpoints of radiance maps: at most so many for each 9 m² of a reflector, and 15 in all of an element, those "
+       "Viewpoints of radiance maps: at most so many for each 9 m² of a reflector, and 16 in all of an element, those "
        "that show most of what eyes see in it",
        number(o.planned.choice.max_maps, 1, 4096), Use::kRare, "views_per_element", "notes/reflections.md"},
       {"--memory", kReflections,

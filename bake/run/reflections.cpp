@@ -8,7 +8,6 @@
 #include "bake/jobs/units.h"
 #include "bake/radiance/emitters.h"
 #include "bake/radiance/map_mesh.h"
-#include "bake/radiance/residual.h"
 #include "bake/radiance/surround_capture.h"
 #include "bake/radiance/surround_viewpoints.h"
 #include "bake/run/baked_light.h"
@@ -106,7 +105,7 @@ Status judge(const LitSurroundings& lit, std::span<const RadianceMap> maps, cons
     std::uint64_t traced = 0;
     const auto inputs = [&](Archive& key) {
       key(r, judges.eyes, judges.cameras);
-      for (const RadianceMap& map : own) key(frame_of(map), map.residual ? hash_of(map) : Hash128());
+      for (const RadianceMap& map : own) key(frame_of(map));
     };
     const auto compute = [&]() -> Status {
       ORIEL_TRY(const auto samples,
@@ -119,7 +118,7 @@ Status judge(const LitSurroundings& lit, std::span<const RadianceMap> maps, cons
       return {};
     };
     ORIEL_TRY_VOID(one_unit(context, "quality", inputs, compute, [&](Archive& archive) {
-      archive(q.seen, q.sharp, q.residual, q.worst, e.samples, e.seen, e.relative_error, e.seen_error, traced);
+      archive(q.seen, q.sharp, q.worst, e.samples, e.seen, e.relative_error, e.seen_error, traced);
     }));
     stage.count(traced);
     report.quality.push_back(q);
@@ -270,8 +269,6 @@ Result<BakedReflections> bake_reflections(const BakeTask& bake, PlannedReflectio
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), stage));
   add_punctual_lights(accel, curved);
   const Judges judges{held_out_eyes(region, kHeldOutEyes, context.seed), cameras_of(region.points)};
-  const ResidualOptions residual{.eyes = eyes, .memory_bytes = options.planned.memory_bytes, .cameras = judges.cameras};
-  ORIEL_TRY_VOID(add_residuals(lit, residual, stage, reflectors, plan));
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
   ORIEL_TRY_VOID(judge(lit, plan.maps, judges, stage, report));
   ORIEL_TRY(out.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));

@@ -76,7 +76,6 @@ Json reflectors_json(const BakeFacts& f) {
     out.back().update({{"seen", f.reflections.quality[i].seen},
                        {"seen_by_worst_camera", f.reflections.quality[i].worst},
                        {"sharp", f.reflections.quality[i].sharp},
-                       {"seen_in_residual", f.reflections.quality[i].residual},
                        {"relative_error", f.reflections.errors[i].relative_error},
                        {"relative_error_of_seen", f.reflections.errors[i].seen_error}});
   }

@@ -22,7 +22,7 @@ struct Reflector {
   std::uint32_t elements_x = 0, elements_y = 0;  // the grid of reflector elements over the bounds
   std::uint32_t first_map = 0,
                 map_count =
-                    0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint, its residual last
+                    0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint
   // Emitters that its maps leave out, into Pack::emitters, and the share of each that is seen from the nodes of a grid
   // over the bounds: node (i, j) lies at lower + (i / (visibility_x - 1), j / (visibility_y - 1)) * (upper - lower),
   // borders included. Emitter k's node is at (k * visibility_y + j) * visibility_x + i: share * 255.
@@ -33,7 +33,7 @@ struct Reflector {
 
 inline constexpr std::size_t kMaxReflectorEmitters = 64;
 
-// Maps of an element that the player can blend at once, a residual included: no more are planned.
+// Maps of an element that the player can blend at once: no more are planned.
 inline constexpr std::size_t kMostMapsPerElement = 16;
 
 // A radiance map: an off-axis perspective image from `eye` (behind the plane, z < 0) through the element's rectangle on
@@ -50,9 +50,6 @@ struct RadianceMap {
   // Where not, the emitters that the reflector lists are seen without their own light, but for their images in other
   // mirrors: those a closed form of the emitters alone does not show.
   bool has_emission = false;
-  // Shows only what no map of the reflector before it sees (second surfaces along the rays of another map with the same
-  // eye and element, or the first ones from an eye of its own): valid is 0 everywhere else. Consulted last.
-  bool residual = false;
   // Disparity: the eye's distance to the plane over the distance to the hit, both measured along the reflector's z:
   // 1 on the plane, 0 at infinity (a miss). Linear along a projected ray, so it interpolates.
   std::vector<float> disparity;

@@ -86,8 +86,7 @@ std::string radiance_maps_html(const Pack& pack, const Limits& limits) {
       white);
   for (std::size_t i = 0; i < shown; ++i) {
     const RadianceMap& m = pack.radiance_maps[i];
-    const std::string name = fmt::format("{}: {}, {} × {}{}", i, pack.reflectors[m.reflector].name, m.width, m.height,
-                                         m.residual ? ", residual" : "");
+    const std::string name = fmt::format("{}: {}, {} × {}", i, pack.reflectors[m.reflector].name, m.width, m.height);
     html += figure(toned_img(rasters[i], white, "radiance map " + shown_text(name)), name);
   }
   return html + "</div>\n" + left_out(pack.radiance_maps.size(), shown, "radiance maps");

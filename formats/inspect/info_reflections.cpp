@@ -55,7 +55,6 @@ Json radiance_maps_json(const Pack& pack) {
                    {"height", map.height},
                    {"eye", triple(map.eye)},
                    {"has_emission", map.has_emission},
-                   {"residual", map.residual},
                    {"pixels", {{"invalid", s.pixels[0]}, {"surface", s.pixels[1]}, {"sky", s.pixels[2]}}},
                    {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
   }
@@ -134,10 +133,9 @@ void print_planar(const PackIndex& index, const Pack& pack) {
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const auto& map = pack.radiance_maps[i];
     const auto s = summarise(map);
-    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}{}\n", i,
+    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n", i,
                map.width, map.height, map.reflector,
-               100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max,
-               map.residual ? ", residual" : "");
+               100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max);
   }
   if (!pack.radiance_maps.empty())
     fmt::print("{} radiance maps: {:.3g} bytes a pixel as stored\n", pack.radiance_maps.size(),

@@ -240,7 +240,8 @@ void describe_place(Serial& s, RadianceMap& map, RadianceMapScale& scale) {
   s(map.reflector, map.element);
   s.size(map.width, map.height);
   s.choice("emission flag", 1, map.has_emission);
-  s.choice("residual flag", 1, map.residual);
+  std::uint8_t unread = 0;  // 1: one of the residual maps that packs had once
+  s.choice("unread flag", 1, unread);
   s.reserved(2);
   s(map.eye, map.lower, map.upper);
   s.scale_exponent(scale.exponent);

@@ -1,4 +1,4 @@
-// What reflections need beside their maps: walk grids, emitters, residual maps, lobes as cosines.
+// What reflections need beside their maps: walk grids, emitters, lobes as cosines.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -51,12 +51,10 @@ void validate_listed(const Pack& pack, std::size_t i, const Reflector& r, IssueL
 }  // namespace
 
 void validate_elements(const Pack& pack, IssueList& list) {
-  std::set<ElementKey> shown;                // by maps that are no residuals
   std::map<ElementKey, std::size_t> counts;  // maps by element
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const RadianceMap& map = pack.radiance_maps[i];
     list.in_section(kRadianceMapSection, i);
-    if (!map.residual) shown.insert({map.reflector, map.element});
     std::size_t& count = counts[{map.reflector, map.element}];
     const RadianceMap* before = i > 0 ? &pack.radiance_maps[i - 1] : nullptr;
     const bool beside = before != nullptr && before->reflector == map.reflector && before->element == map.element;
@@ -71,8 +69,6 @@ void validate_elements(const Pack& pack, IssueList& list) {
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const RadianceMap& map = pack.radiance_maps[i];
     list.in_section(kRadianceMapSection, i);
-    if (map.residual && !shown.contains({map.reflector, map.element}))
-      list.error(418, "is a residual, but its element has no other map");
     if (map.reflector >= pack.reflectors.size()) continue;  // another issue
     const Reflector& reflector = pack.reflectors[map.reflector];
     const std::uint64_t elements = std::uint64_t{reflector.elements_x} * reflector.elements_y;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 
 namespace oriel {
 namespace {
@@ -20,12 +19,9 @@ double angle_between(const DVec3& a, const DVec3& b) {
 }
 
 struct Ranked {
-  bool residual;
   double cost;
   std::uint32_t map;
-  bool operator<(const Ranked& other) const {
-    return std::tie(residual, cost, map) < std::tie(other.residual, other.cost, other.map);
-  }
+  auto operator<=>(const Ranked&) const = default;
 };
 
 }  // namespace
@@ -52,15 +48,13 @@ std::vector<WeighedMap> weigh_maps(const ReflectorElement& element, std::span<co
   double finest = 0;
   for (std::uint32_t i = 0; i < element.maps.size(); ++i) {
     const RadianceMap& map = maps[element.maps[i]];
-    ranked.push_back({map.residual, angle_between(DVec3(map.eye) - center, towards), i});
-    if (!map.residual) finest = std::max(finest, resolution(map));
+    ranked.push_back({angle_between(DVec3(map.eye) - center, towards), i});
+    finest = std::max(finest, resolution(map));
   }
   std::sort(ranked.begin(), ranked.end());
-  const auto whole = static_cast<std::size_t>(
-      std::count_if(ranked.begin(), ranked.end(), [](const Ranked& r) { return !r.residual; }));
-  const std::size_t weighed = std::min(static_cast<std::size_t>(std::max(count, 0)), whole);
+  const std::size_t weighed = std::min(static_cast<std::size_t>(std::max(count, 0)), ranked.size());
   double end = 0;  // the cost at which weights are 0
-  if (weighed > 0) end = weighed < whole ? ranked[weighed].cost : 2 * ranked[weighed - 1].cost;
+  if (weighed > 0) end = weighed < ranked.size() ? ranked[weighed].cost : 2 * ranked[weighed - 1].cost;
   end = std::max(end, 2 * kLeastCost);
   std::vector<WeighedMap> out;
   double sum = 0;

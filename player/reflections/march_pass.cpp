@@ -161,11 +161,6 @@ void MarchPass::choose_maps(const FrameContext& context, const ReflectorElement&
   const auto& [scene, view, options, stats] = context;
   const std::vector<RadianceMap>& maps = scene.pack().radiance_maps;
   std::vector<WeighedMap> chosen = weigh_maps(element, maps, mirrored_eye, options.maps_per_element);
-  // Where not all can be asked, residual ones come before the worst of the others.
-  const auto residual = std::find_if(chosen.begin(), chosen.end(),
-                                     [&](const WeighedMap& m) { return maps[element.maps[m.map]].residual; });
-  const auto excess = static_cast<std::ptrdiff_t>(chosen.size()) - static_cast<std::ptrdiff_t>(kMostMapsPerElement);
-  if (excess > 0) chosen.erase(residual - std::min(excess, residual - chosen.begin()), residual);
   chosen.resize(std::min(chosen.size(), kMostMapsPerElement));
 
   array.light.bind(0);

@@ -7,7 +7,6 @@
 #include "bake/import/import.h"
 #include "bake/material/materials.h"
 #include "bake/radiance/planned_views.h"
-#include "bake/radiance/residual.h"
 #include "bake/visibility/eye_region.h"
 #include "formats/cli/command.h"
 
@@ -24,7 +23,6 @@ struct Settings {
 std::vector<RadianceMap> uniform_maps(const std::vector<RadianceMap>& planned, std::uint32_t count) {
   std::vector<RadianceMap> out;
   for (std::size_t i = 0; i < planned.size(); ++i) {
-    if (planned[i].residual) continue;
     if (i > 0 && planned[i].lower == planned[i - 1].lower && planned[i].upper == planned[i - 1].upper) continue;
     RadianceMap map = planned[i];
     const Vec2 middle = 0.5f * (map.lower + map.upper);
@@ -44,12 +42,10 @@ Status print_reflector(const ReflectedSurroundings& surroundings, std::uint32_t 
   const ViewQuality planned = judge_maps(surroundings, maps, samples, context);
   const std::vector<RadianceMap> uniform = uniform_maps(maps, settings.hemisphere);
   const ViewQuality other = judge_maps(surroundings, uniform, samples, context);
-  const auto residuals = std::count_if(maps.begin(), maps.end(), [](const RadianceMap& map) { return map.residual; });
-  std::printf("| %.24s | %.3g | %.3g | %ux%u | %zu of %u | %.2f | %.2f | %.1f | %zu | %.2f | %.1f |\n",
+  std::printf("| %.24s | %.3g | %.3g | %ux%u | %zu of %u | %.2f | %.1f | %zu | %.2f | %.1f |\n",
               found.reflector.name.c_str(), found.reflector.area_m2, found.roughness, found.reflector.elements_x,
-              found.reflector.elements_y, maps.size() - static_cast<std::size_t>(residuals),
-              maps.empty() ? 0 : std::max(maps[0].width, maps[0].height), 100 * (planned.seen - planned.residual),
-              100 * planned.seen, 100 * planned.sharp, uniform.size(), 100 * other.seen, 100 * other.sharp);
+              found.reflector.elements_y, maps.size(),
+              maps.empty() ? 0 : std::max(maps[0].width, maps[0].height), 100 * planned.seen, 100 * planned.sharp, uniform.size(), 100 * other.seen, 100 * other.sharp);
   std::fflush(stdout);
   return {};
 }
@@ -75,15 +71,13 @@ Status run_scene(const std::string& path, const Settings& settings) {
   views.eyes = training;
   ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, views, context, reflectors));
   const double planned_s = seconds();
-  const auto white = [](const SeenSurface&) { return Vec3(1); };
-  ORIEL_TRY_VOID(add_residuals({surroundings, white}, {.eyes = training}, context, reflectors, plan));
   std::printf("\n%s: %zu storeys, walk %.2f s, planned in %.2f s\n", path.c_str(), region.grids.size(), walk_s,
               planned_s - walk_s);
   for (const std::string& line : plan.omitted) std::printf("%s\n", line.c_str());
   std::printf(
-      "| reflector | m² | roughness | elements | maps | seen %% | with residual %% | sharp %% | uniform maps | seen %% "
+      "| reflector | m² | roughness | elements | maps | seen %% | sharp %% | uniform maps | seen %% "
       "| sharp %% |\n");
-  std::printf("|---|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     found.reflectors[r] = reflectors[r];
     const auto first = plan.maps.begin() + reflectors[r].reflector.first_map;

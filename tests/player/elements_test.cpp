@@ -40,13 +40,12 @@ class Elements : public FrameTest {
   }
 };
 
-// Two elements side by side; the first has a residual map, which lies after the maps of the second.
-TEST_F(Elements, AResidualMapWipesNothing) {
+// Two elements side by side; the first has a map without light, which lies after the maps of the second.
+TEST_F(Elements, AnEmptyMapWipesNothing) {
   Pack pack = pack_of_elements({{0, 0, -1}, {0, 0, -1}, {0, 0, -1}}, 32);
   pack.reflectors[0].elements_x = 2;
   pack.radiance_maps[0].upper.x = pack.radiance_maps[1].lower.x = pack.radiance_maps[2].upper.x = 0;
   pack.radiance_maps[1].element = 1;
-  pack.radiance_maps[2].residual = true;
   pack.radiance_maps[2].valid.assign(32 * 32, 0);
   const Picture p = draw_m(pack, camera_facing({0, 0, 1}));
   EXPECT_GT(p.stats.reflected_pixels, 1000u);

@@ -339,8 +339,7 @@ Pack tiny_mapped_pack() {
   pack.fresnel_maps[0].factor = {Vec3(1), Vec3(0.25f, 0.5f, 0.75f), Vec3(0.04f)};
   pack.kernels[1].fits = {{0.5f, 0.25f, 2, -0.5f, 0.75f}, {}};
   pack.radiance_maps.push_back(tiny_radiance_map(0.5f));
-  pack.radiance_maps.back().residual = true;
-  // The second map's mesh uses its vertices in another order than they have; the residual's has no triangle.
+  // The second map's mesh uses its vertices in another order than they have; the third's has no triangle.
   pack.map_meshes = {{{{0, 0, 0.5f}, {1, 0, 0.5f}, {1, 1, 0.25f}, {0, 1, 0.25f}}, {0, 1, 2, 0, 2, 3}},
                      {{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}}, {0, 2, 1}},
                      {}};

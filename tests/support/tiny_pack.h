@@ -13,7 +13,7 @@ Pack tiny_pack();
 
 // The same with what optional sections add: a directional lightmap, a normal texture of 2 x 2 texels on the wall's
 // material, 2 incidences of kernel 1 with their cosine lobes, Fresnel factors, a split reflectance of 2 x 3 entries, a
-// residual radiance map, 2 emitters (both left out of the reflector's maps), 2 walk grids, a curved reflector with a
+// third radiance map, 2 emitters (both left out of the reflector's maps), 2 walk grids, a curved reflector with a
 // surround map of 2 x 2 texels, visible sets of 2 groups and 3 eye cells, a mover of 2 triangles, a light field of 8
 // probes with 2 bright lights, 2 light groups with their light.
 Pack tiny_mapped_pack();

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "bake/radiance/reproject.h"
-#include "bake/radiance/residual.h"
 #include "bake/trace/sampler.h"
 #include "tests/bake/radiance/mirror_room.h"
 
@@ -155,7 +154,7 @@ TEST(PlannedViews, AreTheSameForAnyThreadsAndStopWhenAsked) {
   EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
 }
 
-// However many an element is allowed, the player must be able to blend them all, and a residual.
+// However many an element is allowed, the player must be able to blend them all.
 TEST(PlannedViews, AreNoMoreThanThePlayerBlends) {
   MirrorRoom room;
   test::SceneParts parts;
@@ -174,7 +173,7 @@ TEST(PlannedViews, AreNoMoreThanThePlayerBlends) {
   options.choice.resolutions = {256};
   options.max_elements = 1;
   const Planned planned = plan_in(*accel, room, eyes_in_room(200), options);
-  EXPECT_EQ(planned.plan.maps.size(), kMostMapsPerElement - 1);
+  EXPECT_EQ(planned.plan.maps.size(), kMostMapsPerElement);
 }
 
 TEST(PlannedViews, KeepTheMemory) {
@@ -192,118 +191,6 @@ TEST(PlannedViews, KeepTheMemory) {
     EXPECT_LE(bytes, limit);
     EXPECT_EQ(planned.plan.maps.empty(), limit < 100);
     ASSERT_EQ(planned.plan.omitted.size(), 1u);
-  }
-}
-
-// One map cannot see behind the furniture; its residual shows what lies there, on the surfaces where it lies, and is
-// not made where nothing is missing.
-TEST(Residuals, ShowWhatNoMapSees) {
-  const MirrorRoom empty;
-  for (const MirrorRoom& room : {furnished(), empty}) {
-    const bool has_furniture = room.scene.triangles.size() > empty.scene.triangles.size();
-    const auto accel = Accel::build(room.scene);
-    ASSERT_TRUE(accel);
-    PlannedViewOptions options;
-    options.choice.max_maps = 1;
-    options.max_elements = 1;
-    const auto eyes = eyes_in_room(1000);
-    Planned planned = plan_in(*accel, room, eyes, options);
-    const std::vector<FoundReflector> as_planned = planned.reflectors;
-    const ReflectedSurroundings surroundings(*accel, as_planned, {});
-    Context context;
-    std::vector<RadianceMap>& maps = planned.plan.maps;
-    ASSERT_TRUE(capture_maps({surroundings, room.outgoing()}, context, maps));
-    const auto held_out = eyes_in_room(60, 1000);
-    const ViewQuality before = judge(*accel, planned, maps, held_out);
-    ASSERT_TRUE(
-        add_residuals({surroundings, room.outgoing()}, {.eyes = eyes}, context, planned.reflectors, planned.plan));
-    const ViewQuality after = judge(*accel, planned, maps, held_out);
-    EXPECT_EQ(maps.size(), has_furniture ? 2u : 1u);
-    EXPECT_EQ(planned.reflectors[0].reflector.map_count, maps.size());
-    if (!has_furniture) continue;
-    std::printf("one map: seen %.2f %%, with its residual %.2f %%\n", 100 * before.seen, 100 * after.seen);
-    EXPECT_NEAR(after.seen - before.seen, after.residual, 1e-9);
-    EXPECT_LT(1 - after.seen, 0.5 * (1 - before.seen));
-    const RadianceMap &map = maps[1], &host = maps[0];
-    EXPECT_TRUE(map.residual);
-    EXPECT_EQ(map.eye, host.eye);
-    const Reflector& r = planned.reflectors[0].reflector;
-    for (std::size_t i = 0; i < map.valid.size(); ++i) {
-      if (map.valid[i] == 0) continue;
-      const Vec4 h = unproject(map, Vec2(i % map.width, i / map.width) + 0.5f, map.disparity[i]);
-      const Vec3 p = pack_from_reflector(r, Vec3(h) / h.w);
-      // A step from the point along each axis meets a surface of the colour that the pixel has.
-      bool on_surface = false;
-      for (int axis = 0; axis < 3; ++axis)
-        for (const float side : {-0.01f, 0.01f}) {
-          Vec3 origin = p, direction(0);
-          origin[axis] += side;
-          direction[axis] = -std::copysign(1.0f, side);
-          const Hit hit = accel->intersect({origin, direction, 0.02f});
-          on_surface = on_surface || (hit && room.outgoing()({hit}) == map.radiance[i]);
-        }
-      ASSERT_TRUE(on_surface) << p.x << " " << p.y << " " << p.z;
-    }
-  }
-}
-
-// The mirror in two elements, most of what is missing in line with the first one's map: its residual follows that map.
-TEST(Residuals, StandBesideTheMapsOfTheirElement) {
-  const MirrorRoom room = furnished();
-  const auto accel = Accel::build(room.scene);
-  ASSERT_TRUE(accel);
-  auto reflectors = find_reflectors(*accel, room.materials(), room.reflector_options()).reflectors;
-  ViewOptions options;
-  options.element_m = 1;
-  options.views_per_element = 1;
-  ViewPlan plan = plan_views(room.scene, reflectors, options);
-  ASSERT_EQ(plan.maps.size(), 4u);
-  const auto as_planned = reflectors;
-  const ReflectedSurroundings surroundings(*accel, as_planned, {});
-  Context context;
-  ASSERT_TRUE(capture_maps({surroundings, room.outgoing()}, context, plan.maps));
-  ASSERT_TRUE(add_residuals({surroundings, room.outgoing()}, {.eyes = eyes_in_room(1000)}, context, reflectors, plan));
-  ASSERT_EQ(plan.maps.size(), 5u);
-  EXPECT_EQ(reflectors[0].reflector.map_count, 5u);
-  const auto residual =
-      std::find_if(plan.maps.begin(), plan.maps.end(), [](const RadianceMap& map) { return map.residual; });
-  ASSERT_NE(residual, plan.maps.end());
-  ASSERT_NE(residual, plan.maps.begin());
-  EXPECT_NE(residual + 1, plan.maps.end()) << "the last element's: nothing would be seen here";
-  EXPECT_EQ((residual - 1)->eye, residual->eye);
-  EXPECT_EQ((residual - 1)->lower, residual->lower);
-  EXPECT_EQ((residual - 1)->upper, residual->upper);
-}
-
-TEST(Residuals, KeepTheMemory) {
-  const MirrorRoom room = furnished();
-  const auto accel = Accel::build(room.scene);
-  ASSERT_TRUE(accel);
-  auto reflectors = find_reflectors(*accel, room.materials(), room.reflector_options()).reflectors;
-  ViewOptions views;
-  views.views_per_element = 1;
-  const ViewPlan plan = plan_views(room.scene, reflectors, views);
-  ASSERT_EQ(plan.maps.size(), 1u);
-  const auto as_planned = reflectors;
-  const ReflectedSurroundings surroundings(*accel, as_planned, {});
-  Context context;
-  const std::uint64_t map = map_bytes(plan.maps[0].width, plan.maps[0].height);
-  for (const std::uint64_t over : {std::uint64_t{0}, map / 4, map}) {
-    ViewPlan with = plan;
-    auto found = reflectors;
-    const std::vector<Vec3> eyes = eyes_in_room(200);
-    const ResidualOptions options{.eyes = eyes, .memory_bytes = map + over};
-    std::atomic<std::uint64_t> rays{0};
-    ASSERT_TRUE(add_residuals({surroundings, room.outgoing()}, options, {context, &rays}, found, with));
-    ASSERT_EQ(with.maps.size(), over > 0 ? 2u : 1u);
-    EXPECT_EQ(rays > 0, over > 0);
-    ASSERT_EQ(with.omitted.size(), over < map ? 1u : 0u);
-    if (over < map) {
-      EXPECT_NE(with.omitted[0].find("1 residuals are smaller or left out"), std::string::npos);
-    }
-    if (over > 0) {
-      EXPECT_EQ(with.maps[1].width, plan.maps[0].width / (over < map ? 2 : 1));
-    }
   }
 }
 

@@ -132,9 +132,7 @@ std::vector<std::uint32_t> select_maps(const Reflector& reflector, std::span<con
     const Vec3 a = normalize_or(mirrored_eye - centre, Vec3(0, 0, -1)),
                b = normalize_or(map.eye - centre, Vec3(0, 0, -1));
     // The chord grows with the angle, and tells small ones apart where a cosine cannot.
-    // A residual holds no view of its own.
-    if (!map.residual)
-      candidates.push_back({by == SelectBy::kAngle ? length2(a - b) : length2(mirrored_eye - map.eye), i});
+    candidates.push_back({by == SelectBy::kAngle ? length2(a - b) : length2(mirrored_eye - map.eye), i});
     if (i + 1 < end && maps[i + 1].lower == map.lower && maps[i + 1].upper == map.upper) continue;
     const std::size_t count = std::min<std::size_t>(n, candidates.size());
     std::stable_sort(candidates.begin(), candidates.end(),

@@ -34,7 +34,7 @@ Vec2 point_size(const RadianceMap& map, const Pinhole& mirror_view, const Vec3& 
 enum class SelectBy : std::uint8_t { kAngle, kDistance };
 // For each element the n maps whose viewpoint is nearest to the mirrored eye (reflector space, z < 0): by the angle at
 // the element's centre, or by distance. Indices into `maps` (all of the pack's), best first, elements in the
-// maps' order; ties go to the lower index. Residual maps are not among them.
+// maps' order; ties go to the lower index.
 std::vector<std::uint32_t> select_maps(const Reflector& reflector, std::span<const RadianceMap> maps,
                                        const Vec3& mirrored_eye, std::uint32_t n, SelectBy by);
 

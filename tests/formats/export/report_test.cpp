@@ -61,7 +61,7 @@ TEST(Report, ShowsAllThatAPackHolds) {
                            "<h2>Surfaces</h2>",
                            "<td>floor</td>",
                            "Radiance maps",
-                           "6 × 4, residual",
+                           "6 × 4",
                            "Surround maps",
                            "Kernels",
                            "Reflectances",

@@ -130,7 +130,6 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["movers"][0]["transfer"]["bytes_per_vertex"], 3);
   EXPECT_EQ(json["light_field"]["bright_lights"].size(), 2u);
   EXPECT_EQ(json["radiance_maps"].size(), 3u);
-  EXPECT_EQ(json["radiance_maps"][2]["residual"], true);
   EXPECT_EQ(json["emitters"][1]["corners"].size(), 3u);
   EXPECT_EQ(json["reflectors"][0]["emitters"], (std::vector<int>{1, 0}));
   EXPECT_EQ(json["walk_grids"][0]["walkable_m2"], 1);

@@ -246,7 +246,7 @@ TEST(Hostile, WhatReflectionsNeed) {
                  reflectors + "element 0: found 65 emitters, expected at most 64");
   expect_refusal(with_raw(kReflectorSection, at + 4, 32769u), reflectors + "element 0: found visibility from 32769 x");
   expect_refusal(with_raw(kReflectorSection, at + 4, 32768u), reflectors + "its counts need more");
-  expect_refusal(with_raw(kRadianceMapSection, 17, std::uint8_t{2}), "element 0: found residual flag 2");
+  expect_refusal(with_raw(kRadianceMapSection, 17, std::uint8_t{2}), "element 0: found unread flag 2");
 }
 
 TEST(Hostile, CurvedReflectors) {

@@ -141,7 +141,6 @@ const Break kBreaks[] = {
     {415, "RMAP 0", [](Pack& p) { p.radiance_maps[0].radiance[1].r = kNan; }},
     {416, "RMAP 0", [](Pack& p) { p.radiance_maps[0].disparity[1] = 1.1f; }},
     {417, "RMAP 0", [](Pack& p) { p.radiance_maps[0].valid[1] = 3; }},
-    {418, "RMAP 0", [](Pack& p) { p.radiance_maps[0].residual = p.radiance_maps[1].residual = true; }},
     {419, "RMAP 2", [](Pack& p) { p.radiance_maps[1].element = 1; }},
     {425, "RMAP 1", [](Pack& p) { p.radiance_maps[1].upper.x -= 0.125f; }},
     {426, "RMAP 0", [](Pack& p) { p.radiance_maps[0].element = 99; }},
