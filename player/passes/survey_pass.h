@@ -1,8 +1,7 @@
-// Draws surfaces in the colours of survey_colors, charts, zone_mesh.
+// Draws surfaces in the colours of survey_colors, charts.
 #pragma once
 
 #include "player/gpu/program.h"
-#include "player/navigation/zone.h"
 #include "player/scene/frame_context.h"
 
 namespace oriel {
@@ -13,20 +12,14 @@ class SurveyPass {
 
   // Opaque surfaces, what of them is shown, over their depth, in the colours that the options show; those without a
   // lightmap are grey, and those whose page has not come yet. kOverdraw: all of them, whatever lies before them, added
-  // to what is black. kZones: plain, with the zone's tiles over them. Colours are kept until others or another scene
-  // are asked for. Errors of pages.
+  // to what is black. Colours are kept until others or another scene are asked for. Errors of pages.
   Status draw(const FrameContext& context, std::span<const DrawBatch> shown);
 
  private:
   // What is kept of a scene for a `show`.
   Status prepare(GpuScene& scene, Show show);
-  void draw_zone(const View& view, FrameStats& stats);
 
-  gpu::Program program_, zone_program_;
-  Zone zone_;
-  gpu::VertexArray zone_array_;
-  std::vector<gpu::Buffer> zone_buffers_;
-  GLsizei zone_corners_ = 0;
+  gpu::Program program_;
   std::vector<gpu::Texture2d> pages_;
   Show painted_ = Show::kAll;
   std::uint64_t scene_ = 0;  // whose pages they are

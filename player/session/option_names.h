@@ -13,7 +13,7 @@ inline constexpr Named<Show> kStages[] = {
     {"D", Show::kD},           {"M", Show::kM},        {"MK", Show::kMK},
     {"MKR", Show::kMKR},       {"all", Show::kAll},    {"charts", Show::kCharts},
     {"error", Show::kError},   {"lux", Show::kLux},    {"overdraw", Show::kOverdraw},
-    {"texels", Show::kTexels}, {"zones", Show::kZones}};
+    {"texels", Show::kTexels}};
 inline constexpr Named<Reflections> kReflections[] = {{"chosen", Reflections::kChosen},
                                                       {"geometry", Reflections::kGeometry},
                                                       {"march", Reflections::kMarch},

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "player/passes/survey_colors.h"
-#include "player/passes/zone_mesh.h"
 #include "player/window/widgets.h"
 
 namespace oriel {
@@ -42,10 +41,6 @@ void draw_legend(Show show) {
       return ImGui::TextUnformatted("a colour for each chart of the lightmap;\ndark grey: no lightmap");
     case Show::kOverdraw:
       return draw_overdraw();
-    case Show::kZones:
-      draw_colored(kZoneColor, "eyes over these floors were planned for");
-      draw_colored(kZoneEdgeColor, "beside them: still in the zone");
-      return draw_colored(kZoneEyeColor, "and 35 cm around cameras, paths, given eyes");
     default:
       return draw_heat(heat_scale(show));
   }

@@ -3,7 +3,6 @@
 #include "formats/query/camera.h"
 #include "player/passes/charts.h"
 #include "player/passes/survey_colors.h"
-#include "player/passes/zone_mesh.h"
 #include "tests/player/frame_fixture.h"
 #include "tests/support/tiny_pack.h"
 
@@ -125,60 +124,6 @@ TEST(Charts, AreWhatHangsTogetherOnAPage) {
   for (std::uint32_t i = 0; i < 50; ++i)
     for (std::uint32_t j = 0; j < i; ++j)
       EXPECT_GT(glm::length(chart_color(i) - chart_color(j)), 0.02f) << i << " " << j;
-}
-
-// A floor with a hole, whose tiles cover just the cells, and a ring around them; every corner agrees with Zone::holds.
-TEST(ZoneMeshes, CoverWhatTheZoneHolds) {
-  WalkGrid grid;
-  grid.lower = {-1, 2};
-  grid.cell_m = 0.5f;
-  grid.width = 6;
-  grid.height = 4;
-  grid.floor_y.assign(24, 1.0f);
-  grid.floor_y[8] = std::nanf("");
-  grid.floor_y[23] = 1.25f;
-  const Zone zone{{grid}, {{50, 0, 0}}, {}};
-  const ZoneMesh mesh = zone_mesh(zone);
-  ASSERT_EQ(mesh.positions.size(), mesh.colors.size());
-  double inside_m2 = 0, edge_m2 = 0;
-  for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
-    const Vec3 &a = mesh.positions[i], &b = mesh.positions[i + 1], &c = mesh.positions[i + 2];
-    if (a.x > 10) {
-      EXPECT_LT(glm::distance(a, zone.eyes[0]), kZoneRadius_m);
-      continue;
-    }
-    const Vec3 normal = glm::cross(b - a, c - a);
-    EXPECT_GT(normal.y, 0);
-    (mesh.colors[i] == mesh.colors[0] ? edge_m2 : inside_m2) += 0.5 * static_cast<double>(glm::length(normal));
-    const Vec3 eye = (a + b + c) / 3.0f + Vec3(0, grid.eye_height_m - kTileHeight_m, 0);
-    EXPECT_TRUE(zone.holds(eye)) << eye.x << " " << eye.z;
-  }
-  EXPECT_NEAR(inside_m2, grid.walkable_m2(), 1e-4) << "the first tile is of the ring";
-  EXPECT_NEAR(edge_m2, (8 * 6 - 24 + 1) * 0.25, 1e-4);
-}
-
-TEST_F(SurveyFrames, ZonesTintFloorsAndBoxes) {
-  Pack pack;
-  pack.materials.resize(1);
-  add_quad(pack, {-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 0, -1);
-  WalkGrid grid;
-  grid.lower = {-2, -2};
-  grid.cell_m = 0.25f;
-  grid.width = 8;
-  grid.height = 16;
-  grid.floor_y.assign(128, 0.0f);
-  pack.walk_grids.push_back(grid);
-  FrameOptions options;
-  options.show = Show::kZones;
-  const Camera above = look_at({0, 5, 0.01f}, {0, 0, 0}, 0.7f);
-  const Picture p = draw(pack, above, 16, 16, options);
-  EXPECT_LT(glm::length(p.at(2, 8) - linear_from_srgb(kZoneColor)), 0.01f);
-  const Vec3 outside = p.at(14, 8);
-  EXPECT_NEAR(outside.r, outside.g, 1e-4f) << "plain";
-  pack.walk_grids.clear();
-  pack.provenance = R"({"options": {"eyes": "box"}})";
-  const Picture box = draw(pack, above, 16, 16, options);
-  EXPECT_GT(box.at(14, 8).g, 1.5f * box.at(14, 8).r) << "all of it";
 }
 
 }  // namespace
