@@ -72,11 +72,10 @@ int export_pack(const std::filesystem::path& path, const std::filesystem::path& 
 
 struct WebRequest {
   std::filesystem::path folder, picture;
-  std::string title;                   // empty: the pack's file name
-  std::optional<std::uint16_t> serve;  // on this port of this machine, 0: one that is free; none: only write the folder
+  std::string title;  // empty: the pack's file name
 };
 
-// The pack as a folder of static files, a walkthrough for browsers (formats/export); serves it until the user stops it.
+// The pack as a folder of static files, a walkthrough for browsers (formats/export).
 int web(const std::filesystem::path& path, const WebRequest& request);
 
 // Prints "oriel-inspect: error: …" to stderr; gives the exit code.

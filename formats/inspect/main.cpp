@@ -32,8 +32,7 @@ Examples:
   oriel-inspect export house.oriel -o house.glb
                                                the lit scene for any glTF viewer
   oriel-inspect web house.oriel -o house
-                                               a walkthrough in a browser: a folder for any web server;
-                                               with --serve it can be looked at, at once
+                                               a walkthrough in a browser: a folder for any web server
 
 docs/oriel-inspect.md explains every line of the output, docs/notes/format.md the file.)";
 
@@ -68,18 +67,6 @@ ExportOptions with_coding(const Arguments& a) {
   if (a.texture == "bc6h") out.coding = TexelCoding::kBc6h;
   if (a.texture == "rgb9e5") out.coding = TexelCoding::kRgb9e5;
   return out;
-}
-
-// "" is a free one.
-OptionValue port(std::optional<std::uint16_t>& out) {
-  return {"[PORT]",
-          [&out](const std::string& typed) -> Status {
-            int found = 0;
-            if (!typed.empty()) ORIEL_TRY_VOID(number(found, 0, 65535).set(typed));
-            out = static_cast<std::uint16_t>(found);
-            return {};
-          },
-          [&out] { return out ? std::to_string(*out) : ""; }};
 }
 
 std::vector<ToolCommand> readers(Arguments& a) {
@@ -149,11 +136,7 @@ std::vector<ToolCommand> writers(Arguments& a) {
                 text(a.web.title, "TEXT"), Use::kEveryday},
                {"--picture", kOptions,
                 "A PNG file, as oriel-play writes them, for browsers in which the walkthrough cannot run",
-                path(a.web.picture, "FILE"), Use::kEveryday},
-               {"--serve", kOptions,
-                "Then show the folder to browsers on this machine, and to nobody else, until Ctrl-C; on this port, or "
-                "on a free one",
-                port(a.web.serve), Use::kEveryday}},
+                path(a.web.picture, "FILE"), Use::kEveryday}},
               a, [](const Arguments& given) { return web(given.pack, given.web); })};
 }
 
