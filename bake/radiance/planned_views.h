@@ -8,12 +8,12 @@
 namespace oriel {
 
 struct PlannedViewOptions {
-  std::span<const Vec3> eyes{};  // scene space: for whom maps are planned
-  ChoiceOptions choice;          // max_maps: of an element of element_m; larger ones get as many times more, but no
-                                 // more than kMostMapsPerElement
-  float element_m = 3;           // metres: the paper's
-  std::uint32_t samples = 4096;  // for each element_m square, at most for four of a reflector
-  std::uint32_t hemisphere = 64;      // candidates: the paper's
+  std::span<const Vec3> eyes{};   // scene space: for whom maps are planned
+  ChoiceOptions choice;           // max_maps: of an element of element_m; larger ones get as many times more, but no
+                                  // more than kMostMapsPerElement
+  float element_m = 3;            // metres: the paper's
+  std::uint32_t samples = 4096;   // for each element_m square, at most for four of a reflector
+  std::uint32_t hemisphere = 64;  // candidates: the paper's
   std::uint32_t mirrored_eyes = 128;  // and mirror images of eyes that see the element
   std::uint32_t max_elements = 16;    // of a reflector: it is divided while that makes it sharper
   std::uint32_t map_resolution = 0;   // of all maps; 0: what is worth its pixels

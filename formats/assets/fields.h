@@ -44,8 +44,8 @@ inline void fields(Archive& archive, Reflector& r) {
           r.elements_y, r.first_map, r.map_count, r.emitters, r.visibility_x, r.visibility_y, r.visibility);
 }
 inline void fields(Archive& archive, RadianceMap& m) {
-  archive(m.reflector, m.element, m.eye, m.lower, m.upper, m.width, m.height, m.has_emission, m.radiance,
-          m.disparity, m.valid);
+  archive(m.reflector, m.element, m.eye, m.lower, m.upper, m.width, m.height, m.has_emission, m.radiance, m.disparity,
+          m.valid);
 }
 // Where a map looks, without what it sees.
 inline Hash128 frame_of(const RadianceMap& m) {

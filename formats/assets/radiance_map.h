@@ -21,8 +21,7 @@ struct Reflector {
   std::vector<std::uint32_t> indices;            // its triangles, into Mesh's vertices
   std::uint32_t elements_x = 0, elements_y = 0;  // the grid of reflector elements over the bounds
   std::uint32_t first_map = 0,
-                map_count =
-                    0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint
+                map_count = 0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint
   // Emitters that its maps leave out, into Pack::emitters, and the share of each that is seen from the nodes of a grid
   // over the bounds: node (i, j) lies at lower + (i / (visibility_x - 1), j / (visibility_y - 1)) * (upper - lower),
   // borders included. Emitter k's node is at (k * visibility_y + j) * visibility_x + i: share * 255.

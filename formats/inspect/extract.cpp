@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "formats/core/json.h"
-#include "formats/export/mesh_obj.h"
 #include "formats/inspect/commands.h"
 #include "formats/inspect/extraction.h"
 #include "formats/pack/reader.h"
@@ -108,17 +107,6 @@ Status Extraction::walk_grids() {
   return {};
 }
 
-Status Extraction::mesh() {
-  Json entry{{"kind", "mesh"},
-             {"vertices", pack_.mesh.positions.size()},
-             {"triangles", pack_.mesh.indices.size() / 3},
-             {"origin", {pack_.mesh.origin.x, pack_.mesh.origin.y, pack_.mesh.origin.z}}};
-  entry["files"] = {{"geometry", "mesh.obj"}};
-  ORIEL_TRY_VOID(write_file_atomically(folder_ / "mesh.obj", bytes_of_text(obj_text(pack_.mesh))));
-  index_.push_back(std::move(entry));
-  return {};
-}
-
 Status Extraction::finish(const std::filesystem::path& source) {
   const Json out{{"schema", kJsonSchema}, {"source", source.filename().string()}, {"entries", index_}};
   ORIEL_TRY_VOID(write_file_atomically(folder_ / "index.json", bytes_of_text(out.dump(2) + "\n")));
@@ -135,7 +123,7 @@ struct Kind {
 constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},         {"radiance_map", &Extraction::radiance_maps},
                            {"surround_map", &Extraction::surround_maps}, {"brdf_kernel", &Extraction::kernels},
                            {"fresnel_map", &Extraction::fresnel_maps},   {"texture", &Extraction::textures},
-                           {"walk_grid", &Extraction::walk_grids},       {"mesh", &Extraction::mesh}};
+                           {"walk_grid", &Extraction::walk_grids}};
 
 }  // namespace
 

@@ -26,7 +26,6 @@ class Extraction {
   Status fresnel_maps();
   Status textures();
   Status walk_grids();
-  Status mesh();
   Status finish(const std::filesystem::path& source);
 
  private:

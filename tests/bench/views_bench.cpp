@@ -44,8 +44,8 @@ Status print_reflector(const ReflectedSurroundings& surroundings, std::uint32_t 
   const ViewQuality other = judge_maps(surroundings, uniform, samples, context);
   std::printf("| %.24s | %.3g | %.3g | %ux%u | %zu of %u | %.2f | %.1f | %zu | %.2f | %.1f |\n",
               found.reflector.name.c_str(), found.reflector.area_m2, found.roughness, found.reflector.elements_x,
-              found.reflector.elements_y, maps.size(),
-              maps.empty() ? 0 : std::max(maps[0].width, maps[0].height), 100 * planned.seen, 100 * planned.sharp, uniform.size(), 100 * other.seen, 100 * other.sharp);
+              found.reflector.elements_y, maps.size(), maps.empty() ? 0 : std::max(maps[0].width, maps[0].height),
+              100 * planned.seen, 100 * planned.sharp, uniform.size(), 100 * other.seen, 100 * other.sharp);
   std::fflush(stdout);
   return {};
 }
