@@ -86,40 +86,6 @@ std::string spec_of(const Pack& pack, std::size_t camera) {
   return name.empty() ? std::to_string(camera) : name;
 }
 
-// Eyes of all grids, each as far as can be from those before it; the first is the middle cell's.
-std::vector<Vec3> spread_eyes(const Pack& pack, std::size_t count) {
-  std::vector<Vec3> all;
-  for (const WalkGrid& grid : pack.walk_grids)
-    for (std::size_t cell = 0; cell < grid.floor_y.size(); ++cell)
-      if (grid.walkable(cell)) all.push_back(grid.eye(cell));
-  std::vector<Vec3> eyes;
-  std::vector<float> nearest(all.size(), std::numeric_limits<float>::max());
-  for (std::size_t next = all.size() / 2; !all.empty() && eyes.size() < std::min(count, all.size());) {
-    eyes.push_back(all[next]);
-    for (std::size_t i = 0; i < all.size(); ++i) nearest[i] = std::min(nearest[i], glm::distance(all[i], eyes.back()));
-    next = static_cast<std::size_t>(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
-  }
-  return eyes;
-}
-
-// Towards the reflector, of those before it, that looks largest; else along the longer side of the scene, away from
-// the nearer end.
-Vec3 target_of(const Vec3& eye, const Pack& pack, const Bounds& bounds) {
-  const Reflector* largest = nullptr;
-  double most = 0;
-  for (const Reflector& r : pack.reflectors) {
-    const Vec3 to = centre_of(r) - eye;
-    const double looks = before(eye, r) ? r.area_m2 / std::max(double{glm::dot(to, to)}, 1e-6) : 0;
-    if (looks > most) most = looks, largest = &r;
-  }
-  if (largest) return centre_of(*largest);
-  const Vec3 size = bounds.upper - bounds.lower, middle = 0.5f * (bounds.lower + bounds.upper);
-  const int axis = size.x >= size.z ? 0 : 2;
-  Vec3 target = eye;
-  target[axis] = eye[axis] > middle[axis] ? bounds.lower[axis] : bounds.upper[axis];
-  return target;
-}
-
 std::string spec_of(const Vec3& eye, const Vec3& target, const DVec3& origin) {
   const DVec3 e = DVec3(eye) + origin, t = DVec3(target) + origin;
   return fmt::format("{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g}", e.x, e.y, e.z, t.x, t.y, t.z);
@@ -142,9 +108,6 @@ SceneFacts survey(const Pack& pack, std::size_t cameras) {
   facts.glossy = std::any_of(pack.reflectors.begin(), pack.reflectors.end(), blurs) ||
                  std::any_of(pack.curved_reflectors.begin(), pack.curved_reflectors.end(), blurs);
   for (const std::size_t camera : chosen_cameras(pack, cameras)) facts.cameras.push_back(spec_of(pack, camera));
-  if (!facts.cameras.empty()) return facts;
-  for (const Vec3& eye : spread_eyes(pack, cameras))
-    facts.cameras.push_back(spec_of(eye, target_of(eye, pack, bounds), pack.mesh.origin));
   if (!facts.cameras.empty()) return facts;
   const Camera view = initial_camera({pack.cameras, pack.paths, pack.mesh.origin}, bounds.lower, bounds.upper);
   facts.cameras.push_back(spec_of(view.eye, view.eye + view.forward, pack.mesh.origin));

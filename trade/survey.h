@@ -19,8 +19,8 @@ struct SceneFacts {
 };
 
 // `cameras`: how many at most, > 0. Of the scene's cameras the first, then those that look at most of the reflectors
-// that the others do not; without cameras eyes of the walk grids far from one another, each towards a reflector before
-// it or along the longer side of its floor; without a floor the player's own first view.
+// that the others do not; without cameras (a bake adds one where there are neither these nor paths) the player's own
+// first view.
 SceneFacts survey(const Pack& pack, std::size_t cameras);
 
 // A texel for a scene of that size: a hundredth of its diagonal, rounded to 1, 2 or 5 times a power of ten; at most
