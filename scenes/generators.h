@@ -38,7 +38,6 @@ SampleScene make_glass();
 // and no camera; a room in a landscape has a window instead, and a camera.
 struct RoomOptions {
   bool closed = true;
-  bool door = false;         // of a room in a landscape: one to walk out by, a step above the ground
   bool surroundings = true;  // of a room in a landscape: its ground and sky
 };
 // The ground is a square of kGroundSide, the sky a dome of kDomeRadius around the room that emits kSkyLuminance evenly.
@@ -57,15 +56,13 @@ inline constexpr std::array<int, 4> kProud_mm{1, 5, 10, 20};
 struct HouseOptions {
   std::uint64_t triangles = 100'000;
   int reflectors = 5;
-  double lawn_m2 = 0;  // a square of grass around and under the house
 };
 inline constexpr int kMaxHouseReflectors = 36;
 
 // A closed house of two storeys with six rooms each, stairs, windows and furniture whose tessellation makes the number
 // of triangles (within 10 %), and `reflectors` planar reflectors: mirrors, polished floors and table tops in turn; a
-// 600-frame walk. Errors: kUsage for triangles below what the house needs at least or above 20 million, reflectors
-// out of [0, kMaxHouseReflectors], or a lawn (other than 0) out of [kLeastLawn, kMostLawn] square metres.
-inline constexpr double kLeastLawn = 1e3, kMostLawn = 1e8;
+// 600-frame walk. Errors: kUsage for triangles below what the house needs at least or above 20 million, or
+// reflectors out of [0, kMaxHouseReflectors].
 Result<SampleScene> make_house(const HouseOptions& options);
 
 }  // namespace oriel::sample

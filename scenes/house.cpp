@@ -300,15 +300,6 @@ void add_house_cameras(SampleScene& scene) {
   scene.paths.push_back(walk_along("walk", waypoints, options));
 }
 
-// Half the slab's height below the ground floor: it goes on under the house, as plain ground planes do.
-void add_lawn(SampleScene& scene, double area_m2) {
-  const auto side = static_cast<float>(std::sqrt(area_m2));
-  const Vec3 middle(kRoomsX * (kRoomX + kWall) / 2, -kSlab / 2, kRoomsZ * (kRoomZ + kWall) / 2);
-  SampleMesh lawn{"lawn", add_diffuse(scene, "grass", Vec3(0.10f, 0.17f, 0.05f))};
-  add_quad(lawn, {middle + Vec3(-side / 2, 0, side / 2), Vec3(side, 0, 0), Vec3(0, 0, -side)});
-  place(scene, std::move(lawn));
-}
-
 SampleScene house_without_furniture(HousePalette& palette, const HouseOptions& options) {
   SampleScene scene;
   scene.name = "House";
@@ -317,7 +308,6 @@ SampleScene house_without_furniture(HousePalette& palette, const HouseOptions& o
   add_windows_and_lights(scene, palette);
   add_stairs(scene, palette);
   add_mirrors(scene, palette, options.reflectors);
-  if (options.lawn_m2 > 0) add_lawn(scene, options.lawn_m2);
   return scene;
 }
 
@@ -353,10 +343,6 @@ Result<Sized> size_house(const HouseOptions& options) {
   if (options.reflectors < 0 || options.reflectors > kMaxHouseReflectors) {
     return fail(ErrorCode::kUsage, "house", "found {} reflectors, expected 0 to {}", options.reflectors,
                 kMaxHouseReflectors);
-  }
-  if (options.lawn_m2 != 0 && !(options.lawn_m2 >= kLeastLawn && options.lawn_m2 <= kMostLawn)) {
-    return fail(ErrorCode::kUsage, "house", "found a lawn of {} m², expected 0 or {} to {}", options.lawn_m2,
-                kLeastLawn, kMostLawn);
   }
   Sized sized;
   sized.scene = house_without_furniture(sized.palette, options);

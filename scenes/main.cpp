@@ -106,11 +106,8 @@ std::vector<Option> own_options(Arguments& arguments) {
            number(arguments.house.triangles, 0, 1e9), Use::kEveryday},
           {"--reflectors", "house", "Planar reflectors (mirrors, polished floors, table tops)",
            number(arguments.house.reflectors, 0, sample::kMaxHouseReflectors), Use::kEveryday},
-          {"--lawn", "house", "Square metres of lawn around it", number(arguments.house.lawn_m2, 0, sample::kMostLawn),
-           Use::kEveryday},
           {"--floor-roughness", "gallery", "Of the polished tiles, whose lobe is as wide as its square",
            number(arguments.gallery.floor_roughness, 0, 1), Use::kEveryday},
-          {"--door", "dome", "A door beside the window, to walk out by", flag(arguments.dome.door), Use::kEveryday},
           {"--no-surroundings", "dome", "The room alone, without ground and sky",
            flag(arguments.dome.surroundings, false), Use::kEveryday}};
 }

@@ -11,9 +11,8 @@ namespace {
 constexpr Vec3 kRoom{6, 2.7f, 6};  // from the origin
 constexpr float kWall = 0.2f, kSlab = 0.3f, kGround = -0.15f;
 constexpr double kDetail = 5;  // of the furniture
-// The window in the south wall (+z), the door in the east wall (+x).
+// The window in the south wall (+z).
 constexpr float kWindowX0 = 1.5f, kWindowX1 = 4.5f, kWindowY0 = 0.9f, kWindowY1 = 2.1f;
-constexpr float kDoorZ0 = 3.2f, kDoorZ1 = 4.2f, kDoorY = 2.1f;
 
 enum Air { kInside, kOpening };
 
@@ -24,12 +23,9 @@ void add_walls(SampleScene& scene, const RoomOptions& options) {
                       render = add_diffuse(scene, "render", {0.62f, 0.58f, 0.52f});
   std::vector<Block> blocks{{Vec3(-kWall, -kSlab, -kWall), kRoom + Vec3(kWall), true, 0},
                             {Vec3(0), kRoom, false, kInside}};
-  if (!options.closed) {
+  if (!options.closed)
     blocks.push_back(
         {Vec3(kWindowX0, kWindowY0, kRoom.z), Vec3(kWindowX1, kWindowY1, kRoom.z + kWall), false, kOpening});
-    if (options.door)
-      blocks.push_back({Vec3(kRoom.x, 0, kDoorZ0), Vec3(kRoom.x + kWall, kDoorY, kDoorZ1), false, kOpening});
-  }
   static constexpr std::array<const char*, 6> kNames{"east wall", "west wall",  "ceiling",
                                                      "floor",     "south wall", "north wall"};
   for (SolidPatch& patch : boundary_patches(blocks)) {

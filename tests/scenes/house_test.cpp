@@ -32,10 +32,8 @@ TEST(House, HasTheReflectorsAskedFor) {
 }
 
 TEST(House, RefusesWhatItCannotMake) {
-  for (const HouseOptions& options :
-       {HouseOptions{0, 5}, HouseOptions{1000, 5}, HouseOptions{1'000'000'000, 5}, HouseOptions{20'000, -1},
-        HouseOptions{20'000, kMaxHouseReflectors + 1}, HouseOptions{20'000, 5, -1}, HouseOptions{20'000, 5, 10},
-        HouseOptions{20'000, 5, 1e12}, HouseOptions{20'000, 5, NAN}}) {
+  for (const HouseOptions& options : {HouseOptions{0, 5}, HouseOptions{1000, 5}, HouseOptions{1'000'000'000, 5},
+                                      HouseOptions{20'000, -1}, HouseOptions{20'000, kMaxHouseReflectors + 1}}) {
     const auto house = make_house(options);
     ASSERT_FALSE(house);
     EXPECT_EQ(house.error().code, ErrorCode::kUsage);
@@ -67,25 +65,6 @@ TEST(House, HasNoCoplanarOverlapsAndIsClosed) {
       EXPECT_TRUE(seen->front) << "the back of " << house->nodes[triangles[seen->triangle].node].name;
     }
   }
-}
-
-TEST(House, TheLawnIsAsLargeAsAskedAndChangesNothingElse) {
-  const auto without = make_house({20'000, 5}), with = make_house({20'002, 5, 1e5});
-  ASSERT_TRUE(without && with);
-  EXPECT_EQ(triangle_count(*with), triangle_count(*without) + 2);
-  EXPECT_EQ(with->nodes.size(), without->nodes.size() + 1);
-  EXPECT_EQ(coplanar_overlaps(*with), std::vector<std::string>{});
-  double area = 0;
-  Vec3 low(1e9f), high(-1e9f);
-  for (const Triangle& t : flatten(*with))
-    if (with->nodes[t.node].name == "lawn") {
-      area += 0.5 * t.cross().y;
-      for (const Vec3& p : t.p) low = glm::min(low, p), high = glm::max(high, p);
-    }
-  EXPECT_NEAR(area, 1e5, 1);
-  EXPECT_LT(high.y, 0);  // under the floor, over the ground slab's underside
-  EXPECT_GT(low.y, -0.3f);
-  EXPECT_LT(glm::length(0.5f * (low + high) - Vec3(6.6f, low.y, 4.6f)), 0.5f);  // around the house
 }
 
 TEST(House, TheWalkIsClearAndReachesBothFloors) {
