@@ -74,8 +74,7 @@ Result<Comparison> compare(const PlayedFrame& frame, const LayeredImage& referen
   ORIEL_TRY_VOID(check_finite(frame.specular, ErrorCode::kDifferent, "frame", "MKR"));
   const auto layer = [&](const char* name) -> const FloatImage& { return reference.layers.at(name); };
   const FloatImage diffuse = sum(layer("direct"), layer("indirect"));
-  Comparison out{
-      frame.total.width, frame.total.height, white > 0 ? white : white_of(layer("")), frame.holes, frame.sharp, {}, {}};
+  Comparison out{frame.total.width, frame.total.height, white > 0 ? white : white_of(layer("")), frame.holes, {}, {}};
   const FloatImage seen = shown(frame.total, out.white), wanted = shown(layer(""), out.white);
   const FloatImage squares = squared_difference(seen, wanted);
   const FloatImage noise = shown_variance(layer(""), layer("error"), out.white);
@@ -125,13 +124,11 @@ std::string comparison_text(const Comparison& c) {
                         psnr_db(r.mse), psnr_db(r.noise_mse), r.ssim, r.flip, error_text(r.total),
                         error_text(r.diffuse), r.specular ? error_text(*r.specular) : "");
   text += fmt::format("holes: {:.3f} % of the reflected images' pixels\n", 100 * c.holes);
-  if (c.sharp) text += fmt::format("sharp: {:.3f} % of the mirrors' pixels\n", 100 * *c.sharp);
   return text;
 }
 
 std::string comparison_json(const Comparison& c, std::optional<double> max_flip) {
   Json json = {{"width", c.width}, {"height", c.height}, {"white_cd_m2", c.white}, {"holes", c.holes}};
-  if (c.sharp) json["sharp"] = *c.sharp;
   if (max_flip) {
     json["max_flip"] = *max_flip;
     json["passed"] = c.regions.front().flip <= *max_flip;

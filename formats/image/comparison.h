@@ -16,7 +16,6 @@ struct PlayedFrame {
   std::vector<std::uint8_t> mirrors;    // by pixel: 1 where all of it shows an image that is not blurred,
   std::vector<std::uint8_t> glossy;     // and one that is
   double holes = 0;                     // share of the reflected images' pixels that were filled from beside
-  std::optional<double> sharp{};        // share of the mirrors' pixels in which a map pixel covers no more than two
   std::vector<std::uint8_t> movers{};   // by pixel: 1 where all of it shows an object that moves; empty: none
 };
 
@@ -32,9 +31,8 @@ struct RegionComparison {
 
 struct Comparison {
   std::uint32_t width = 0, height = 0;
-  float white = 1;   // cd/m² shown as white in both
-  double holes = 0;  // as PlayedFrame
-  std::optional<double> sharp{};
+  float white = 1;                        // cd/m² shown as white in both
+  double holes = 0;                       // as PlayedFrame
   std::vector<RegionComparison> regions;  // the frame first; regions without pixels are left out
   FloatImage picture;                     // reference, frame, FLIP (white is 1), side by side, sRGB in [0, 1]
 };

@@ -113,7 +113,6 @@ class Studio {
     stats.reflected_pixels = counted.reflected_pixels;
     stats.holes = counted.holes;
     stats.mirror_pixels = counted.mirror_pixels;
-    stats.sharp = counted.sharp;
     return {};
   }
 

@@ -39,7 +39,6 @@ Json as_json(const FrameRecord& record) {
           {"reflected_pixels", s.reflected_pixels},
           {"holes", s.holes},
           {"mirror_pixels", s.mirror_pixels},
-          {"sharp", s.sharp},
           {"shade",
            {{"lights", s.shade.lights},
             {"prepare_s", s.shade.prepare_s},

@@ -22,8 +22,6 @@ class Stages {
     frame.holes = stats_.reflected_pixels > 0
                       ? static_cast<double>(stats_.holes) / static_cast<double>(stats_.reflected_pixels)
                       : 0;
-    if (stats_.mirror_pixels > 0)
-      frame.sharp = static_cast<double>(stats_.sharp) / static_cast<double>(stats_.mirror_pixels);
     options_.count_holes = false;
     ORIEL_TRY(frame.total, draw_stage(Show::kAll));
     const std::vector<std::int32_t> materials = renderer_.read_reflective();

@@ -6,8 +6,7 @@
 
 namespace oriel {
 
-PixelCount count_pixels(const FrameTarget& frame, GLint value, const ImageTarget& image, const ImageRect& rect,
-                        bool (*counts)(const Vec4&)) {
+HoleCount count_holes(const FrameTarget& frame, GLint value, const ImageTarget& image, const ImageRect& rect) {
   const int width = frame.light.width(), height = frame.light.height();
   std::vector<Vec4> reflected(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height));
   std::vector<std::uint8_t> stencil(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -16,7 +15,7 @@ PixelCount count_pixels(const FrameTarget& frame, GLint value, const ImageTarget
   glReadPixels(0, 0, rect.width, rect.height, GL_RGBA, GL_FLOAT, reflected.data());
   frame.framebuffer.bind();
   glReadPixels(0, 0, width, height, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
-  PixelCount count;
+  HoleCount count;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       if (static_cast<GLint>(stencil[static_cast<std::size_t>(y * width + x)] & kReflectorBits) != value) continue;
@@ -24,7 +23,7 @@ PixelCount count_pixels(const FrameTarget& frame, GLint value, const ImageTarget
       const int column = std::clamp(static_cast<int>(at.x), 0, rect.width - 1);
       const int row = std::clamp(static_cast<int>(at.y), 0, rect.height - 1);
       ++count.pixels;
-      if (counts(reflected[static_cast<std::size_t>(row * rect.width + column)])) ++count.counted;
+      count.holes += reflected[static_cast<std::size_t>(row * rect.width + column)].a == 0;
     }
   return count;
 }

@@ -51,10 +51,6 @@ bool worth_an_image(const FrameContext& context, const ReflectionTarget& target,
   return left >= kMirroring && !scene.kernel(reflector.material, options.coarse).blurs();
 }
 
-bool marches(Reflections way) {
-  return way == Reflections::kMarch || way == Reflections::kChosen;
-}
-
 bool blurs(const GpuKernel& kernel, const FrameOptions& options) {
   return kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
 }
@@ -206,17 +202,12 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
   const ReflectedImage image{reflector, kernel, rect, *images_[level], blurred, maps};
   stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
   const bool counted = options.count_holes && marked.value > 0 && target.frame != nullptr;
-  if (counted && !kernel.blurs() && maps && marches(options.reflections)) {
-    march_pass_.measure(work.context, image);
-    const PixelCount count = count_pixels(*target.frame, marked.value, image.target, rect, is_sharp);
-    stats.mirror_pixels += count.pixels;
-    stats.sharp += count.counted;
-  }
   ORIEL_TRY_VOID(timed(clock, Pass::kReflect, [&] { return draw_image(work, target, marked, image); }));
   if (counted) {
-    const PixelCount count = count_pixels(*target.frame, marked.value, image.target, rect, is_hole);
+    const HoleCount count = count_holes(*target.frame, marked.value, image.target, rect);
     stats.reflected_pixels += count.pixels;
-    stats.holes += count.counted;
+    stats.mirror_pixels += kernel.blurs() ? 0 : count.pixels;
+    stats.holes += count.holes;
   }
   const gpu::Texture2d& depth = target.frame != nullptr ? target.frame->depth : target.image->depth;
   if (blurred && !maps) {

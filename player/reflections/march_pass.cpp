@@ -68,15 +68,8 @@ void MarchPass::draw(const FrameContext& context, const ReflectedImage& image, c
   }
   gpu::apply(state);
   FrameStats again;
-  march({scene, view, options, coarse ? again : stats}, image, 1, false);
+  march({scene, view, options, coarse ? again : stats}, image, 1);
   stats.draws += again.draws;
-}
-
-void MarchPass::measure(const FrameContext& context, const ReflectedImage& image) const {
-  FrameStats unused;
-  clear_image(image.target, image.rect);
-  gpu::apply({});
-  march({context.scene, context.view, context.options, unused}, image, 1, true);
 }
 
 void MarchPass::draw_coarse(const FrameContext& context, const ReflectedImage& image, const ShownPixels& shown) const {
@@ -95,7 +88,7 @@ void MarchPass::draw_coarse(const FrameContext& context, const ReflectedImage& i
   glClearColor(0, 0, 0, kCoarseHole);
   glClear(GL_COLOR_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
-  march(context, image, rect.marched, false);
+  march(context, image, rect.marched);
 
   clear_image(target, rect, Vec4(0), shown.value == 0 ? 1 : 0);
   if (shown.value != 0) copy_stencil(target, rect, *shown.frame, view);
@@ -120,7 +113,7 @@ void MarchPass::draw_coarse(const FrameContext& context, const ReflectedImage& i
   spread(spread_, done);
 }
 
-void MarchPass::march(const FrameContext& context, const ReflectedImage& image, int coarse, bool measure) const {
+void MarchPass::march(const FrameContext& context, const ReflectedImage& image, int coarse) const {
   const auto& [scene, view, options, stats] = context;
   const GpuReflector& reflector = image.reflector;
   const ReflectedView reflected = reflect_view(reflector, view, image.rect, scene.bounds());
@@ -133,7 +126,6 @@ void MarchPass::march(const FrameContext& context, const ReflectedImage& image, 
   program_.set("u_pixel", 2 * static_cast<float>(coarse) * view.tangents.y / static_cast<float>(view.height));
   program_.set("u_closest", kClosest);
   program_.set("u_hole", coarse > 1 ? kCoarseHole : 0.0f);
-  program_.set("u_measure", measure ? 1 : 0);
   program_.set("u_light", 0);
   program_.set("u_disparity", 1);
   program_.set("u_ranges", 2);

@@ -16,12 +16,10 @@ class MarchPass {
   // kernel covers two pixels of rect.marched or more they are that large, and interpolated. What no map sees keeps a =
   // 0.
   void draw(const FrameContext& context, const ReflectedImage& image, const ShownPixels& shown) const;
-  // Instead of light, how many pixels of the image one of the map covers, across; all over the image.
-  void measure(const FrameContext& context, const ReflectedImage& image) const;
 
  private:
   // Into what is bound, in pixels of `coarse` of the image's.
-  void march(const FrameContext& context, const ReflectedImage& image, int coarse, bool measure) const;
+  void march(const FrameContext& context, const ReflectedImage& image, int coarse) const;
   // Coarse pixels over all of the image but those that show the reflector and are blurred less: those alone keep their
   // value in its stencil.
   void draw_coarse(const FrameContext& context, const ReflectedImage& image, const ShownPixels& shown) const;

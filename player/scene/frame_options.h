@@ -126,10 +126,8 @@ struct FrameStats {
   // limit.
   std::uint64_t image_bytes = 0, most_image_bytes = 0;
   std::uint32_t coarser_images = 0, missing_images = 0;
-  // Of opaque reflectors, where they are counted.
-  std::uint64_t reflected_pixels = 0, holes = 0;
-  // Of opaque ones without a kernel, by march: of the pixels those in which a map pixel covers no more than two.
-  std::uint64_t mirror_pixels = 0, sharp = 0;
+  // Of opaque reflectors, where they are counted; of the pixels those of reflectors without a kernel.
+  std::uint64_t reflected_pixels = 0, mirror_pixels = 0, holes = 0;
   ShadeStats shade;
   PassTimes ms{};  // by pass, where asked for
 };

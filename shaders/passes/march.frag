@@ -21,7 +21,6 @@ uniform vec4 u_mirrored_eye;  // reflector space; w = 0: the direction to it
 uniform vec4 u_depth_row;     // view-space -z of a point of reflector space = dot(row, point)
 uniform float u_ortho;        // 1: distances run along the view direction
 uniform float u_pixel;        // tangent of an image pixel, or its metres
-uniform bool u_measure;       // instead of light: how many pixels of the image one of the map covers
 uniform float u_hole;         // what a holds where nothing is seen
 uniform float u_closest;      // 1 / distance is never stored smaller: marks the sky as seen
 
@@ -76,8 +75,7 @@ void main() {
       }
       float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
       float s_distance = hit.s * to_plane - eye.z * (1.0 - hit.s) * pace / max(direction.z, 1e-6 * pace);
-      float pixels = map_pixels(hit, map, s_distance);
-      vec4 light = vec4(u_measure ? vec3(1.0 / pixels) : light_of_hit(hit, map, pixels), inverse);
+      vec4 light = vec4(light_of_hit(hit, map, map_pixels(hit, map, s_distance)), inverse);
       // Maps that do not agree about the distance do not mix: the weightier ones win.
       float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust * hit.trust * smoothstep(kLeastTrust, 1.5 * kLeastTrust, hit.trust);
       if (total > 0.0) {

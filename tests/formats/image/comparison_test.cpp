@@ -72,11 +72,6 @@ TEST(Comparison, TellsComponentsAndRegionsApart) {
   EXPECT_EQ(json["holes"], 0.25);
   EXPECT_NE(comparison_text(c).find("25.000 %"), std::string::npos);
   EXPECT_NE(comparison_text(c).find("mirrors"), std::string::npos);
-  EXPECT_FALSE(json.contains("sharp")) << "not known";
-  frame.sharp = 0.75;
-  const Comparison measured = *compare(frame, reference(), 0);
-  EXPECT_EQ(Json::parse(comparison_json(measured)).value()["sharp"], 0.75);
-  EXPECT_NE(comparison_text(measured).find("sharp: 75.000 %"), std::string::npos);
 }
 
 TEST(Comparison, RefusesWhatIsNoReference) {
