@@ -47,8 +47,4 @@ std::vector<std::uint8_t> survey_colors(const LightmapPage& page, Show show) {
   return out;
 }
 
-Vec3 overdraw_color(int surfaces) {
-  return srgb_from_linear(glm::min(static_cast<float>(surfaces) * kOverdrawStep, Vec3(1)));
-}
-
 }  // namespace oriel

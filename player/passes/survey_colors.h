@@ -16,9 +16,4 @@ HeatScale heat_scale(Show show);  // of kLux and kError
 // is no surface. Of no other Show.
 std::vector<std::uint8_t> survey_colors(const LightmapPage& page, Show show);
 
-// kOverdraw: the light that each surface adds to a pixel, so that many become bright: dark red to yellow to white.
-inline constexpr Vec3 kOverdrawStep{0.16f, 0.04f, 0.008f};
-// The colour of so many surfaces, sRGB as shown.
-Vec3 overdraw_color(int surfaces);
-
 }  // namespace oriel

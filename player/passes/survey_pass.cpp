@@ -19,7 +19,7 @@ Status SurveyPass::prepare(GpuScene& scene, Show show) {
     painted_ = show;
     scene_ = scene.serial();
     pages_.clear();
-    if (show != Show::kOverdraw) pages_.resize(pack.lightmaps.size());
+    pages_.resize(pack.lightmaps.size());
     const auto charts = show == Show::kCharts ? chart_colors(pack) : std::vector<std::vector<std::uint8_t>>();
     for (std::size_t i = 0; i < charts.size(); ++i)  // of coordinates alone
       pages_[i] = {gpu::kSrgbAlpha8, static_cast<int>(pack.lightmaps[i].width),
@@ -43,19 +43,15 @@ Status SurveyPass::draw(const FrameContext& context, std::span<const DrawBatch> 
   program_.use();
   program_.set("u_clip_from_pack", view.clip_from_pack);
   program_.set("u_survey", kLightmapUnit);
-  program_.set("u_adds", show == Show::kOverdraw ? 1 : 0);
-  program_.set("u_added", kOverdrawStep);
   scene.bind_shown();
   gpu::RasterState state;
-  state.depth_test = show != Show::kOverdraw;
-  if (show == Show::kOverdraw) state.blend = gpu::Blend::kAdd;
+  state.depth_test = true;
   for (const DrawBatch& batch : shown) {
     const Material& m = scene.pack().materials[batch.material];
     state.cull = cull_of(m);
     gpu::apply(state);
     set_cutout(program_, scene, m);
-    const bool surveyed =
-        batch.lightmap_page >= 0 && !pages_.empty() && pages_[static_cast<std::size_t>(batch.lightmap_page)];
+    const bool surveyed = batch.lightmap_page >= 0 && pages_[static_cast<std::size_t>(batch.lightmap_page)];
     program_.set("u_surveyed", surveyed ? 1 : 0);
     if (surveyed) pages_[static_cast<std::size_t>(batch.lightmap_page)].bind(kLightmapUnit);
     draw_batch(batch, stats);

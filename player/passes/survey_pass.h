@@ -11,8 +11,8 @@ class SurveyPass {
   static Result<SurveyPass> create(gpu::Dialect dialect);
 
   // Opaque surfaces, what of them is shown, over their depth, in the colours that the options show; those without a
-  // lightmap are grey, and those whose page has not come yet. kOverdraw: all of them, whatever lies before them, added
-  // to what is black. Colours are kept until others or another scene are asked for. Errors of pages.
+  // lightmap are grey, and those whose page has not come yet. Colours are kept until others or another scene are asked
+  // for. Errors of pages.
   Status draw(const FrameContext& context, std::span<const DrawBatch> shown);
 
  private:

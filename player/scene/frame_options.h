@@ -14,9 +14,9 @@ namespace oriel {
 
 // The stages of Bastos et al. 1999: what reflectors see (M), blurred (MK), modulated (MKR); the diffuse part (D); the
 // frame. After those what the bake knows of texels, as colours: illuminance, its standard error, the texels themselves,
-// the charts that they lie in; how many surfaces each pixel is drawn by.
-enum class Show { kAll, kM, kMK, kMKR, kD, kLux, kError, kTexels, kCharts, kOverdraw };
-inline constexpr int kShows = 10;
+// the charts that they lie in.
+enum class Show { kAll, kM, kMK, kMKR, kD, kLux, kError, kTexels, kCharts };
+inline constexpr int kShows = 9;
 inline bool is_survey(Show show) {
   return show >= Show::kLux;
 }

@@ -95,8 +95,7 @@ std::vector<Option> picture_options(PlayArguments& out) {
       {"--show", kPicture,
        "What to show: the image that reflectors see (M), blurred by their roughness (MK), times their reflectance "
        "(MKR), the diffuse light alone (D), or the whole frame (all); or of each texel its illuminance (lux), standard "
-       "error (error), state (texels) or chart (charts) in colours; or how many surfaces each pixel is drawn by "
-       "(overdraw)",
+       "error (error), state (texels) or chart (charts) in colours",
        choice(out.frame.show, kStages), Use::kEveryday, "show"},
       {"--pvs", kPicture,
        "Draw only what may be seen from where the eye stands, where the pack knows it; off: all that lies in the view, "

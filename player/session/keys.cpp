@@ -26,7 +26,7 @@ constexpr Binding kBindings[] = {
     {"+", "brighter", Action::kBrighter},
     {"-", "darker", Action::kDarker},
     {"X", "automatic exposure", Action::kAutoExposure},
-    {"M", "next stage: M, M*K, times R, D; illuminance, error, texels, charts, overdraw; the frame", Action::kStage},
+    {"M", "next stage: M, M*K, times R, D; illuminance, error, texels, charts; the frame", Action::kStage},
     {"B", "beside each other: two packs, or a pack and a picture; the divider is dragged", Action::kSplit},
     {"V", "one of the two, and the other", Action::kFlip},
     {"Tab", "panel", Action::kPanel},

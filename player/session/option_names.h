@@ -9,10 +9,9 @@
 namespace oriel {
 
 inline constexpr Named<ToneCurve> kToneCurves[] = {{"aces", ToneCurve::kAces}, {"none", ToneCurve::kNone}};
-inline constexpr Named<Show> kStages[] = {{"D", Show::kD},          {"M", Show::kM},     {"MK", Show::kMK},
-                                          {"MKR", Show::kMKR},      {"all", Show::kAll}, {"charts", Show::kCharts},
-                                          {"error", Show::kError},  {"lux", Show::kLux}, {"overdraw", Show::kOverdraw},
-                                          {"texels", Show::kTexels}};
+inline constexpr Named<Show> kStages[] = {{"D", Show::kD},         {"M", Show::kM},     {"MK", Show::kMK},
+                                          {"MKR", Show::kMKR},     {"all", Show::kAll}, {"charts", Show::kCharts},
+                                          {"error", Show::kError}, {"lux", Show::kLux}, {"texels", Show::kTexels}};
 inline constexpr Named<Reflections> kReflections[] = {{"chosen", Reflections::kChosen},
                                                       {"geometry", Reflections::kGeometry},
                                                       {"march", Reflections::kMarch},

@@ -23,14 +23,6 @@ void draw_heat(const HeatScale& scale) {
   ImGui::TextUnformatted(scale.unit);
 }
 
-void draw_overdraw() {
-  for (int surfaces = 1; surfaces <= 64; surfaces *= 2) {
-    if (surfaces > 1) ImGui::SameLine();
-    draw_colored(overdraw_color(surfaces), std::to_string(surfaces));
-  }
-  ImGui::TextUnformatted("opaque surfaces drawn in a pixel,\nhidden ones too");
-}
-
 }  // namespace
 
 void draw_legend(Show show) {
@@ -39,8 +31,6 @@ void draw_legend(Show show) {
       return ImGui::TextUnformatted("grey: baked; blue: filled from neighbours;\nred: inside other geometry");
     case Show::kCharts:
       return ImGui::TextUnformatted("a colour for each chart of the lightmap;\ndark grey: no lightmap");
-    case Show::kOverdraw:
-      return draw_overdraw();
     default:
       return draw_heat(heat_scale(show));
   }

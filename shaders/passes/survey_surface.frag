@@ -6,8 +6,6 @@ uniform float u_alpha;
 uniform float u_alpha_cutoff;  // negative: no cut-outs
 uniform sampler2D u_survey;
 uniform bool u_surveyed;  // false: no lightmap
-uniform bool u_adds;      // what each surface adds to a pixel, else by texel
-uniform vec3 u_added;
 
 in vec3 v_position;
 in vec3 v_normal;
@@ -23,5 +21,5 @@ const vec3 kNothing = vec3(0.1);
 void main() {
   if (u_alpha_cutoff >= 0.0 && texture(u_base_texture, v_uv).a * u_alpha * v_color.a < u_alpha_cutoff) discard;
   vec3 shown = u_surveyed && gl_FrontFacing ? texture(u_survey, lightmap_uv(v_lightmap_uv)).rgb : kNothing;
-  o_light = vec4(u_adds ? u_added : shown, 2.0);
+  o_light = vec4(shown, 2.0);
 }

@@ -92,9 +92,9 @@ TEST_F(Play, SeveralCamerasGoIntoAFolder) {
 }
 
 TEST_F(Play, EveryStageAndOption) {
-  for (const char* options : {"--show M", "--show MK", "--show MKR", "--show D", "--show charts", "--show overdraw",
-                              "--tonemap none", "--maps 1", "--blur off", "--reflections march",
-                              "--reflections geometry", "--reflections off", "--exposure -3.5", "--exposure auto"}) {
+  for (const char* options :
+       {"--show M", "--show MK", "--show MKR", "--show D", "--show charts", "--tonemap none", "--maps 1", "--blur off",
+        "--reflections march", "--reflections geometry", "--reflections off", "--exposure -3.5", "--exposure auto"}) {
     EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png"))
         << options;
   }

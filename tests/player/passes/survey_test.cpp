@@ -68,21 +68,6 @@ TEST_F(SurveyFrames, AWallOfOneIlluminanceHasItsColour) {
   EXPECT_LT(glm::length(draw(pack, look_at({0, 0, 3}, {0, 0, 0}, 1), 8, 8, options).at(4, 4) - Vec3(0.1f)), 0.01f);
 }
 
-// Walls one behind another, also out of order and behind the nearest; the back of a one-sided one is not drawn.
-TEST_F(SurveyFrames, OverdrawCountsSurfacesByPixel) {
-  Pack pack;
-  pack.materials.resize(1);
-  for (const float z : {-1.0f, 0.5f, -2.0f}) add_quad(pack, {-5, -5, z}, {10, 0, 0}, {0, 10, 0}, 0, -1);
-  add_quad(pack, {0, -5, 0}, {5, 0, 0}, {0, 10, 0}, 0, -1);
-  add_quad(pack, {5, -5, -3}, {-10, 0, 0}, {0, 10, 0}, 0, -1);
-  FrameOptions options;
-  options.show = Show::kOverdraw;
-  const Picture p = draw(pack, look_at({0, 0, 3}, {0, 0, 0}, 1), 8, 8, options);
-  EXPECT_LT(glm::length(p.at(1, 4) - 3.0f * kOverdrawStep), 1e-5f);
-  EXPECT_LT(glm::length(p.at(6, 4) - 4.0f * kOverdrawStep), 1e-5f);
-  EXPECT_NEAR(linear_from_srgb(overdraw_color(3)).g, 3 * kOverdrawStep.g, 1e-5f);
-}
-
 // Two triangles that share an edge are a chart, a third one apart from them another; a page of its own is another too.
 TEST(Charts, AreWhatHangsTogetherOnAPage) {
   Mesh mesh;

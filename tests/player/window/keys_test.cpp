@@ -95,7 +95,7 @@ const std::map<std::string, Try> kTries{
     {"+", {"key 1; key x; key minus; key minus; key plus", "EV "}},
     {"-", {"key minus", "EV "}},
     {"X", {"key x", "automatic exposure"}},
-    {"M", {"key m; key m; key m; key m; key m; key m; key m; key m; key m; key m", "stage overdraw"}},
+    {"M", {"key m; key m; key m; key m; key m; key m; key m; key m; key m", "stage charts"}},
     {"B", {"key b", "tiny.oriel beside dark.oriel"}},
     {"V", {"key v; key v", "oriel-play: dark.oriel"}},
     {"Tab", {"key Tab; key Tab", "panel closed"}},
