@@ -5,9 +5,9 @@
 #include <mutex>
 #include <numeric>
 #include <span>
-#include <tuple>
 #include <vector>
 
+#include "bake/scene/edges.h"
 #include "formats/core/check.h"
 
 namespace oriel {
@@ -16,29 +16,6 @@ namespace {
 constexpr std::uint32_t kMaxFan = 512;  // corners at a vertex: OpenMesh's work at a vertex grows with their square
 constexpr double kFoldCos = -0.9;       // between normals: below it a surface folds back onto itself
 constexpr std::size_t kMaxUses = 64;    // of an edge; beyond it none of its triangles are joined
-
-struct EdgeUse {
-  std::uint32_t low, high;  // welded vertices
-  std::uint32_t corner;     // 3 * triangle + k: the edge from corner k to the next
-  bool forward;             // from low to high
-};
-
-// By vertex of the surface: the first of those at its position.
-std::vector<std::uint32_t> weld(const Scene& scene, const Surface& surface) {
-  const auto at = [&](std::uint32_t v) -> const Vec3& { return scene.positions[surface.first_vertex + v]; };
-  std::vector<std::uint32_t> order(surface.vertex_count), welded(surface.vertex_count);
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3 &p = at(a), &q = at(b);
-    if (p.x != q.x) return p.x < q.x;
-    if (p.y != q.y) return p.y < q.y;
-    if (p.z != q.z) return p.z < q.z;
-    return a < b;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    welded[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? welded[order[i - 1]] : order[i];
-  return welded;
-}
 
 std::uint32_t next_corner(std::uint32_t corner) {
   return corner % 3 == 2 ? corner - 2 : corner + 1;
@@ -108,33 +85,11 @@ void pair_uses(const Scene& scene, std::uint32_t first_triangle, std::span<const
   }
 }
 
-std::vector<EdgeUse> edge_uses(const Scene& scene, const Surface& surface) {
-  const std::vector<std::uint32_t> welded = weld(scene, surface);
-  std::vector<EdgeUse> uses;
-  uses.reserve(std::size_t{3} * surface.triangle_count);
-  for (std::uint32_t t = 0; t < surface.triangle_count; ++t) {
-    const UVec3 v = scene.triangles[surface.first_triangle + t] - UVec3(surface.first_vertex);
-    const std::uint32_t w[3] = {welded[v.x], welded[v.y], welded[v.z]};
-    if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]) continue;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = w[k], b = w[(k + 1) % 3];
-      uses.push_back({std::min(a, b), std::max(a, b), 3 * t + k, a < b});
-    }
-  }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-    return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-  });
-  return uses;
-}
-
 // By corner: the first of those that share its vertex.
 std::vector<std::uint32_t> joined_corners(const Scene& scene, const Surface& surface) {
   CornerSets sets(std::size_t{3} * surface.triangle_count);
-  const std::vector<EdgeUse> uses = edge_uses(scene, surface);
-  for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
-    while (end < uses.size() && uses[end].low == uses[i].low && uses[end].high == uses[i].high) ++end;
-    pair_uses(scene, surface.first_triangle, std::span(uses).subspan(i, end - i), sets);
-  }
+  for_each_edge(edge_uses(welded_corners(scene, surface)),
+                [&](std::span<const EdgeUse> uses) { pair_uses(scene, surface.first_triangle, uses, sets); });
   return std::move(sets).roots();
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "bake/import/patches.h"
+#include "bake/scene/edges.h"
 
 namespace oriel {
 namespace {
@@ -15,18 +17,6 @@ constexpr double kMostLift = 1e-3;    // metres, but not less than
 constexpr double kLeastLift = 1e-5;   // of the radius
 constexpr double kDirections = 512;   // cells of plane normals along each axis of [0, 1]
 constexpr double kCellPerPlace = 64;  // cells of plane distances
-
-// The entries of a sorted list whose first member has that value. Clang 14 refuses the iterators of
-// std::ranges::equal_range, and the fuzzers are compiled by it.
-template <class Entry, class Key>
-std::span<const Entry> with_key(const std::vector<Entry>& sorted, const std::type_identity_t<Key>& key,
-                                Key Entry::*member) {
-  const auto first = std::lower_bound(sorted.begin(), sorted.end(), key,
-                                      [member](const Entry& entry, const Key& k) { return entry.*member < k; });
-  const auto last = std::upper_bound(first, sorted.end(), key,
-                                     [member](const Key& k, const Entry& entry) { return k < entry.*member; });
-  return {first, last};
-}
 
 // Moves patches, and what of their object hangs on them.
 class Lifter {
@@ -44,64 +34,55 @@ class Lifter {
   bool has_body(const Layer& layer, double one_place) {
     const DVec3 n(geometric_normal(scene_, layer.triangles.front()));
     const DVec3 from(scene_.positions[scene_.triangles[layer.triangles.front()].x]);
-    if (of_vertex_.empty()) find_triangles();
     for (const std::uint32_t v : vertices_at(layer))
-      for (const auto& [vertex, t] : with_key(of_vertex_, v, &OfVertex::first))
+      for (std::uint32_t c = first_corner_[v]; c != kNone; c = next_corner_[c])
         for (int k = 0; k < 3; ++k)
-          if (glm::dot(n, DVec3(scene_.positions[scene_.triangles[t][k]]) - from) < -one_place) return true;
+          if (glm::dot(n, DVec3(scene_.positions[scene_.triangles[c / 3][k]]) - from) < -one_place) return true;
     return false;
   }
 
   // Faces lower than a lift may turn over: they keep their front on the side of their normals.
   void finish() {
-    std::vector<Vec3> before;
-    before.reserve(scene_.triangles.size());
-    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) before.push_back(geometric_normal(scene_, t));
     for (std::size_t v = 0; v < moved_.size(); ++v) {
       Vec3& p = scene_.positions[v];
       p += moved_[v];
       scene_.lower = glm::min(scene_.lower, p);
       scene_.upper = glm::max(scene_.upper, p);
     }
-    scene_.face_normals.clear();
-    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
-      if (glm::dot(geometric_normal(scene_, t), before[t]) < 0) std::swap(scene_.triangles[t].y, scene_.triangles[t].z);
+    const std::vector<Vec3> before = scene_.face_normals;
     keep_face_normals(scene_);
+    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
+      if (Vec3& normal = scene_.face_normals[t]; glm::dot(normal, before[t]) < 0)
+        std::swap(scene_.triangles[t].y, scene_.triangles[t].z), normal = -normal;
   }
 
  private:
-  using Place = std::pair<std::size_t, std::uint32_t>;       // a position's hash and a vertex there
-  using OfVertex = std::pair<std::uint32_t, std::uint32_t>;  // a vertex and a triangle of it
+  static constexpr std::uint32_t kNone = ~0u;
 
   // The vertices of the layer's object that lie where its corners do.
   std::set<std::uint32_t> vertices_at(const Layer& layer) {
-    if (at_.empty()) find_places();
+    if (welded_.empty()) find_places();
     const std::uint32_t of = scene_.triangle_surface[layer.triangles.front()];
     std::set<std::uint32_t> vertices;
     for (const std::uint32_t t : layer.triangles)
-      for (int k = 0; k < 3; ++k) {
-        const Vec3& corner = scene_.positions[scene_.triangles[t][k]];
-        for (const auto& [hash, v] : with_key(at_, PositionHash()(corner), &Place::first))
-          if (scene_.positions[v] == corner && same_object(surface_of_[v], of)) vertices.insert(v);
-      }
+      for (int k = 0; k < 3; ++k)
+        for (std::uint32_t v = welded_[scene_.triangles[t][k]]; v != kNone; v = next_at_[v])
+          if (same_object(surface_of_[v], of)) vertices.insert(v);
     return vertices;
   }
 
   void find_places() {
-    surface_of_.resize(scene_.positions.size());
+    const std::size_t vertices = scene_.positions.size();
+    surface_of_.resize(vertices), next_at_.assign(vertices, kNone), first_corner_.assign(vertices, kNone);
+    next_corner_.resize(3 * scene_.triangles.size());
     for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s)
-      for (std::uint32_t i = 0; i < scene_.surfaces[s].vertex_count; ++i) {
-        const std::uint32_t v = scene_.surfaces[s].first_vertex + i;
-        surface_of_[v] = s;
-        at_.emplace_back(PositionHash()(scene_.positions[v]), v);
-      }
-    std::ranges::sort(at_);
-  }
-
-  void find_triangles() {
-    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
-      for (int k = 0; k < 3; ++k) of_vertex_.emplace_back(scene_.triangles[t][k], t);
-    std::ranges::sort(of_vertex_);
+      for (std::uint32_t i = 0; i < scene_.surfaces[s].vertex_count; ++i)
+        surface_of_[scene_.surfaces[s].first_vertex + i] = s;
+    welded_ = weld(scene_.positions);
+    for (std::uint32_t v = 0; v < vertices; ++v)
+      if (welded_[v] != v) next_at_[v] = std::exchange(next_at_[welded_[v]], v);
+    for (std::uint32_t c = 0; c < next_corner_.size(); ++c)
+      next_corner_[c] = std::exchange(first_corner_[scene_.triangles[c / 3][c % 3]], c);
   }
 
   // Whether both are of one node's mesh.
@@ -112,9 +93,9 @@ class Lifter {
 
   Scene& scene_;
   std::vector<Vec3> moved_;
-  std::vector<std::uint32_t> surface_of_;  // by vertex
-  std::vector<Place> at_;                  // sorted
-  std::vector<OfVertex> of_vertex_;        // sorted
+  std::vector<std::uint32_t> surface_of_, welded_;         // by vertex
+  std::vector<std::uint32_t> next_at_;                     // by vertex: another at its position
+  std::vector<std::uint32_t> first_corner_, next_corner_;  // by vertex, by corner: 3 * triangle + k of the vertex
 };
 
 // Planes are cut into cells by distance twice, the second time half a cell further: what lies in one place is in one
@@ -126,9 +107,9 @@ struct Cells {
   std::vector<Planar> planar = {};  // sorted
 
   std::uint64_t cell_of(const DVec3& n, double distance) const {
-    const auto number = [](double x) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(x)); };
+    const auto number = [](double x) { return static_cast<std::uint64_t>(std::llrint(x)); };
     std::uint64_t h = number(std::floor(distance / size + (shifted ? 0.75 : 0.25)));
-    for (int k = 0; k < 3; ++k) h = h * 0x9e3779b97f4a7c15u + number(std::round(n[k] * kDirections));
+    for (int k = 0; k < 3; ++k) h = h * 0x9e3779b97f4a7c15u + number(n[k] * kDirections);
     return h;
   }
 
@@ -139,12 +120,15 @@ struct Cells {
   }
 
   void sort() {
+    planar.reserve(scene.triangles.size());
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) planar.push_back({cell_of(t, 1), t});
     std::sort(planar.begin(), planar.end());
   }
 
   std::span<const Planar> other_side_of(const Layer& layer) const {
-    return with_key(planar, cell_of(layer.triangles.front(), -1), &Planar::cell);
+    const std::uint64_t cell = cell_of(layer.triangles.front(), -1);
+    const auto first = std::lower_bound(planar.begin(), planar.end(), Planar{cell, 0});
+    return {first, std::upper_bound(first, planar.end(), Planar{cell, ~0u})};
   }
 };
 
@@ -166,6 +150,7 @@ void tell(const Scene& scene, const std::map<std::uint32_t, std::uint32_t>& told
 void separate_layers(Scene& scene, Context& context) {
   const double radius = scene.radius(), one_place = kOnePlace * radius;
   const double lift = std::max(std::min(kLift * radius, kMostLift), kLeastLift * radius);
+  keep_face_normals(scene);
   Lifter lifter(scene);
   PlanePatches plane(scene, one_place, lift);
   std::set<std::vector<std::uint32_t>> done;    // patches

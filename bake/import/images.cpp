@@ -60,6 +60,10 @@ Result<Bytes> essential_png(std::span<const std::byte> bytes, const std::string&
   return invalid(name, "found a PNG without IEND, expected one");
 }
 
+bool is_png(std::span<const std::byte> bytes) {
+  return starts_with(bytes, "\x89PNG\r\n\x1A\n");
+}
+
 bool is_webp(std::span<const std::byte> bytes) {
   return starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8);
 }
@@ -94,21 +98,13 @@ const char* foreign_format(std::span<const std::byte> bytes) {
   return "an unknown format";
 }
 
-// Spreads 1 (grey), 2 (grey, alpha), 3 or 4 channels over RGBA.
-void spread(std::vector<std::uint8_t>& texels, std::size_t count, int channels) {
-  for (std::size_t i = count; i-- > 0;) {
-    std::uint8_t in[4] = {0, 0, 0, 255};
-    std::memcpy(in, texels.data() + i * static_cast<std::size_t>(channels), static_cast<std::size_t>(channels));
-    const std::uint8_t grey[4] = {in[0], in[0], in[0], channels == 2 ? in[1] : std::uint8_t{255}};
-    std::memcpy(texels.data() + 4 * i, channels < 3 ? grey : in, 4);
-  }
+Result<ImageSize> checked_size(std::uint32_t width, std::uint32_t height, const std::string& name) {
+  if (width < 1 || height < 1 || width > kMaxImageSize || height > kMaxImageSize)
+    return invalid(name, "found {} x {} texels, expected 1 to {} a side", width, height, kMaxImageSize);
+  return ImageSize{width, height};
 }
-
-Status check_size(const OIIO::ImageSpec& spec, const std::string& name) {
-  if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(kMaxImageSize) ||
-      spec.height > static_cast<int>(kMaxImageSize))
-    return invalid(name, "found {} x {} texels, expected 1 to {} a side", spec.width, spec.height, kMaxImageSize);
-  return {};
+Result<ImageSize> size_of(const OIIO::ImageSpec& spec, const std::string& name) {
+  return checked_size(static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), name);
 }
 
 // OpenImageIO multiplies WebP's alpha in. Texels without any have the colour of those beside them, so that edges of
@@ -145,7 +141,7 @@ struct Reader {
 };
 
 Result<std::unique_ptr<Reader>> open(std::span<const std::byte> bytes, const std::string& name) {
-  const bool png = starts_with(bytes, "\x89PNG\r\n\x1A\n"), webp = is_webp(bytes);
+  const bool png = is_png(bytes), webp = is_webp(bytes);
   if (!png && !webp && !starts_with(bytes, "\xFF\xD8\xFF"))
     return invalid(name, "found {}, expected PNG, JPEG or WebP", bytes.empty() ? "no data" : foreign_format(bytes));
   const std::string format = png ? "PNG" : webp ? "WebP" : "JPEG", plugin = png ? "png" : webp ? "webp" : "jpeg";
@@ -165,7 +161,7 @@ Result<std::unique_ptr<Reader>> open(std::span<const std::byte> bytes, const std
   const OIIO::ImageSpec& spec = reader->spec;
   if (!reader->input->open("memory." + plugin, reader->spec, config))
     return invalid(name, "found a corrupt {}: {}", format, reader->input->geterror());
-  ORIEL_TRY_VOID(check_size(spec, name));
+  ORIEL_TRY_VOID(size_of(spec, name));
   if (spec.nchannels < 1 || spec.nchannels > 4)
     return invalid(name, "found {} channels, expected 1 to 4", spec.nchannels);
   return reader;
@@ -188,7 +184,7 @@ Result<std::unique_ptr<OIIO::ImageInput>> open_sky(const std::filesystem::path& 
   OIIO::ImageSpec spec;
   if (!input->open(name, spec))
     return invalid(name, "found a corrupt {} file: {}", exr ? "OpenEXR" : "Radiance", input->geterror());
-  ORIEL_TRY_VOID(check_size(spec, name));
+  ORIEL_TRY_VOID(size_of(spec, name));
   return input;
 }
 
@@ -208,9 +204,10 @@ auto guarded(const std::string& name, const Work& work) -> decltype(work()) {
 
 Result<ImageSize> image_size(std::span<const std::byte> bytes, const std::string& name) {
   if (is_webp(bytes)) return webp_size(bytes, name);
+  if (is_png(bytes) && bytes.size() >= 24) return checked_size(big_endian(bytes, 16), big_endian(bytes, 20), name);
   return guarded(name, [&]() -> Result<ImageSize> {
     ORIEL_TRY(const std::unique_ptr<Reader> reader, open(bytes, name));
-    return ImageSize{static_cast<std::uint32_t>(reader->spec.width), static_cast<std::uint32_t>(reader->spec.height)};
+    return size_of(reader->spec, name);
   });
 }
 
@@ -220,11 +217,14 @@ Result<Image> decode_image(std::span<const std::byte> bytes, const std::string& 
     const int channels = reader->spec.nchannels;
     Image image{
         name, static_cast<std::uint32_t>(reader->spec.width), static_cast<std::uint32_t>(reader->spec.height), {}};
-    const std::size_t count = std::size_t{image.width} * image.height;
-    image.texels.resize(count * 4);
-    if (!reader->input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, image.texels.data()))
+    image.texels.assign(std::size_t{4} * image.width * image.height, 255);
+    if (!reader->input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, image.texels.data(), 4))
       return invalid(name, "found a corrupt image: {}", reader->input->geterror());
-    spread(image.texels, count, channels);
+    for (std::size_t i = 0; i < image.texels.size() && channels < 3; i += 4) {  // grey, with alpha or without
+      std::uint8_t* texel = &image.texels[i];
+      if (channels == 2) texel[3] = texel[1];
+      texel[1] = texel[2] = texel[0];
+    }
     if (is_webp(bytes) && channels == 4) divide_alpha(image);
     return image;
   });
@@ -233,7 +233,7 @@ Result<Image> decode_image(std::span<const std::byte> bytes, const std::string& 
 Result<ImageSize> sky_image_size(const std::filesystem::path& path) {
   return guarded(path.string(), [&]() -> Result<ImageSize> {
     ORIEL_TRY(const auto input, open_sky(path));
-    return ImageSize{static_cast<std::uint32_t>(input->spec().width), static_cast<std::uint32_t>(input->spec().height)};
+    return size_of(input->spec(), path.string());
   });
 }
 

@@ -14,6 +14,7 @@
 #include "bake/import/viewpoints.h"
 #include "bake/import/warning_group.h"
 #include "bake/jobs/parallel.h"
+#include "bake/scene/edges.h"
 #include "convert/import_process.h"
 #include "formats/core/file.h"
 
@@ -94,7 +95,7 @@ class ImageLoader {
  private:
   struct Source {
     std::size_t image;  // of the document
-    std::string name;
+    std::string where, name;
     std::span<const std::byte> bytes;
     Hash128 hash = {};
   };
@@ -109,7 +110,9 @@ class ImageLoader {
       known.name = source.name;
       return known;
     }
-    return decode_image(source.bytes, source.name);
+    Result<Image> image = decode_image(source.bytes, source.where);
+    if (image) image->name = source.name;
+    return image;
   }
 
   void find_used() {
@@ -137,7 +140,7 @@ class ImageLoader {
       if (!bytes)
         warn(bytes.error(), context);
       else
-        sources_.push_back({i, desc.name.empty() ? fmt::format("image {}", i) : desc.name, *bytes});
+        sources_.push_back({i, where, desc.name.empty() ? fmt::format("image {}", i) : desc.name, *bytes});
     }
     return {};
   }
@@ -189,16 +192,7 @@ void warn_of_topology(const Scene& scene, const Scene* last, Context& context) {
     if (!seen.insert(fmt::format("{}\n{}\n{}", surface.mesh_name, surface.material, surface.triangle_count)).second)
       continue;
     if (context.stopped()) return;
-    if (surface.triangle_count > kMaxSoupTriangles) {
-      context.warning(fmt::format("surface \"{}\" has {} triangles: its orientation was not checked", surface.name,
-                                  surface.triangle_count));
-      continue;
-    }
-    std::vector<UVec3> triangles(scene.triangles.begin() + surface.first_triangle,
-                                 scene.triangles.begin() + surface.first_triangle + surface.triangle_count);
-    for (UVec3& t : triangles) t -= UVec3(surface.first_vertex);
-    const SoupReport report =
-        inspect_soup(std::span(scene.positions).subspan(surface.first_vertex, surface.vertex_count), triangles);
+    const SoupReport report = inspect_soup(welded_corners(scene, surface));
     const bool back_matters = !scene.materials[surface.material].double_sided && report.misoriented_triangles > 0;
     if (!back_matters && report.non_manifold_edges == 0) continue;
     std::string text;

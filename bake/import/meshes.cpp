@@ -4,10 +4,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <unordered_set>
 
 #include "bake/import/draco.h"
 #include "bake/import/warning_group.h"
+#include "formats/core/numbering.h"
 
 namespace oriel::gltf {
 namespace {
@@ -260,27 +260,27 @@ class PrimitiveLoader {
     const auto point = [&](std::uint32_t i) {
       return Vec3(positions[3 * std::size_t{i}], positions[3 * std::size_t{i} + 1], positions[3 * std::size_t{i} + 2]);
     };
-    std::unordered_set<TriangleKey, TriangleKeyHash> seen;
-    seen.reserve(triangles.size());
+    Numbering<TriangleKey, TriangleKeyHash> numbers(triangles.size());
     std::erase_if(triangles, [&](const UVec3& t) {
       const Vec3 a = point(t.x), b = point(t.y), c = point(t.z);
       if (degenerate(a, b, c)) return ++drops.degenerate, true;
-      if (!seen.insert(key_of(a, b, c)).second) return ++drops.duplicate, true;
+      const std::size_t known = numbers.size();
+      if (numbers(key_of(a, b, c)) < known) return ++drops.duplicate, true;
       return false;
     });
   }
 
   // Renumbers the triangles' vertices from 0 in increasing order; returns their old numbers.
   static std::vector<std::uint32_t> compact(std::vector<UVec3>& triangles) {
-    std::vector<std::uint32_t> used;
-    used.reserve(triangles.size() * 3);
-    for (const UVec3& t : triangles) used.insert(used.end(), {t.x, t.y, t.z});
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    const auto renumber = [&](std::uint32_t i) {
-      return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), i) - used.begin());
-    };
-    for (UVec3& t : triangles) t = UVec3(renumber(t.x), renumber(t.y), renumber(t.z));
+    constexpr std::uint32_t kUnused = ~0u;
+    std::uint32_t low = ~0u, high = 0;
+    for (const UVec3& t : triangles) low = std::min({low, t.x, t.y, t.z}), high = std::max({high, t.x, t.y, t.z});
+    std::vector<std::uint32_t> used, number(triangles.empty() ? 0 : std::size_t{high} - low + 1, kUnused);
+    for (const UVec3& t : triangles)
+      for (int k = 0; k < 3; ++k) number[t[k] - low] = 0;
+    for (std::uint32_t i = 0; i < number.size(); ++i)
+      if (number[i] != kUnused) number[i] = static_cast<std::uint32_t>(used.size()), used.push_back(low + i);
+    for (UVec3& t : triangles) t = UVec3(number[t.x - low], number[t.y - low], number[t.z - low]);
     return used;
   }
 

@@ -393,7 +393,6 @@ Status place_meshes(const PosedNodes& nodes, std::span<const LoadedMesh> meshes,
     scene.lower = glm::min(scene.lower, p);
     scene.upper = glm::max(scene.upper, p);
   }
-  keep_face_normals(scene);
   return {};
 }
 

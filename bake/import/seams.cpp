@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <tuple>
 #include <unordered_map>
 
+#include "bake/scene/edges.h"
 #include "formats/core/disjoint_sets.h"
 
 namespace oriel {
@@ -16,71 +19,44 @@ constexpr double kLeastArea = 0.5;  // that a triangle keeps
 
 class Seams {
  public:
-  Seams(Scene& scene, const Surface& surface) : scene_(scene), surface_(surface) {}
+  Seams(Scene& scene, const Surface& surface)
+      : positions_(std::span(scene.positions).subspan(surface.first_vertex, surface.vertex_count)),
+        corners_(welded_corners(scene, surface)) {}
 
   void join() {
-    number_places();
     const std::vector<std::uint32_t> open = open_places();
     if (open.empty()) return;
-    DisjointSets sets = near_each_other(open);
-    std::vector<std::uint32_t> first(places_.size());  // of the places that are one
-    for (std::uint32_t i = 0; i < places_.size(); ++i) first[i] = static_cast<std::uint32_t>(sets.root(i));
+    std::vector<std::uint32_t> first = near_each_other(open);
     while (leave_triangles_alone(first)) {
     }
-    for (std::uint32_t v = 0; v < surface_.vertex_count; ++v)
-      if (const std::uint32_t at = place_of_[v]; first[at] != at) position(v) = places_[first[at]];
+    const std::vector<std::uint32_t> welded = weld(positions_);
+    for (std::uint32_t v = 0; v < positions_.size(); ++v)
+      if (first[welded[v]] != welded[v]) positions_[v] = positions_[first[welded[v]]];
   }
 
  private:
-  Vec3& position(std::uint32_t v) { return scene_.positions[surface_.first_vertex + v]; }
-  std::array<std::uint32_t, 3> corners(std::uint32_t t) const {
-    const UVec3 v = scene_.triangles[surface_.first_triangle + t] - surface_.first_vertex;
-    return {place_of_[v.x], place_of_[v.y], place_of_[v.z]};
-  }
-
-  // Vertices at the same position are one place.
-  void number_places() {
-    std::vector<std::uint32_t> order(surface_.vertex_count);
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t v) {
-      const Vec3& p = position(v);
-      return std::tuple(p.x, p.y, p.z);
-    };
-    std::ranges::sort(order,
-                      [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
-    place_of_.resize(order.size());
-    for (const std::uint32_t v : order) {
-      if (places_.empty() || places_.back() != position(v)) places_.push_back(position(v));
-      place_of_[v] = static_cast<std::uint32_t>(places_.size() - 1);
-    }
-  }
-
-  // The ends of edges that one triangle has alone; ascending.
+  // Welded vertices at the ends of edges that one triangle has alone; ascending by x, y, z.
   std::vector<std::uint32_t> open_places() const {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-    edges.reserve(std::size_t{3} * surface_.triangle_count);
-    for (std::uint32_t t = 0; t < surface_.triangle_count; ++t) {
-      const auto c = corners(t);
-      for (std::size_t k = 0; k < 3; ++k) edges.emplace_back(std::minmax(c[k], c[(k + 1) % 3]));
-    }
-    std::ranges::sort(edges);
     std::vector<std::uint32_t> open;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      const bool alone = (i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]);
-      if (alone) open.push_back(edges[i].first), open.push_back(edges[i].second);
-    }
-    std::ranges::sort(open);
+    for_each_edge(edge_uses(corners_), [&](std::span<const EdgeUse> uses) {
+      if (uses.size() == 1) open.push_back(uses[0].low), open.push_back(uses[0].high);
+    });
+    std::ranges::sort(open, {},
+                      [&](std::uint32_t v) { return std::tuple(positions_[v].x, positions_[v].y, positions_[v].z); });
     open.erase(std::ranges::unique(open).begin(), open.end());
     return open;
   }
 
-  DisjointSets near_each_other(const std::vector<std::uint32_t>& open) const {
-    Vec3 lower = places_[open.front()], upper = lower, farthest(0);
-    for (const Vec3& p : places_)
+  // By welded vertex: the first of the open places that it is one with.
+  std::vector<std::uint32_t> near_each_other(const std::vector<std::uint32_t>& open) const {
+    std::vector<std::uint32_t> first(positions_.size());
+    std::iota(first.begin(), first.end(), 0u);
+    Vec3 lower = positions_[open.front()], upper = lower, farthest(0);
+    for (const Vec3& p : positions_)
       lower = glm::min(lower, p), upper = glm::max(upper, p), farthest = glm::max(farthest, glm::abs(p));
     const float reach = std::max(kOfSize * glm::length(upper - lower), kOfCoordinates * max_component(farthest));
-    DisjointSets sets(places_.size());
-    if (!(reach > 0)) return sets;
+    if (!(reach > 0)) return first;
+    DisjointSets sets(open.size());
     // Cells as wide as the reach: what is near lies in one of the 27 around.
     using Cell = std::array<std::int64_t, 3>;
     const auto cell_of = [&](const Vec3& p) {
@@ -91,33 +67,35 @@ class Seams {
       return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
     };
     std::unordered_map<Cell, std::vector<std::uint32_t>, decltype(hash)> cells(open.size(), hash);
-    for (const std::uint32_t i : open) {
-      const Cell cell = cell_of(places_[i]);
+    for (std::uint32_t i = 0; i < open.size(); ++i) {
+      const Vec3& at = positions_[open[i]];
+      const Cell cell = cell_of(at);
       for (int n = 0; n < 27; ++n)
         if (const auto near = cells.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
             near != cells.end())
           for (const std::uint32_t j : near->second)
-            if (glm::length(places_[i] - places_[j]) <= reach) sets.join(i, j);
+            if (glm::length(at - positions_[open[j]]) <= reach) sets.join(i, j);
       cells[cell].push_back(i);
     }
-    return sets;
+    for (std::uint32_t i = 0; i < open.size(); ++i) first[open[i]] = open[sets.root(i)];
+    return first;
   }
 
   // Takes back what would leave a triangle without area; whether there was any.
   bool leave_triangles_alone(std::vector<std::uint32_t>& first) const {
-    std::vector<char> kept(places_.size(), 0);  // by set
+    std::vector<char> kept(first.size(), 0);  // by set
     bool any = false;
-    for (std::uint32_t t = 0; t < surface_.triangle_count; ++t) {
-      const auto c = corners(t);
+    for (std::size_t t = 0; t + 2 < corners_.size(); t += 3) {
+      const std::uint32_t* c = &corners_[t];
       if (first[c[0]] == c[0] && first[c[1]] == c[1] && first[c[2]] == c[2]) continue;
       const auto normal = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-        const DVec3 a(places_[x]);
-        return glm::cross(DVec3(places_[y]) - a, DVec3(places_[z]) - a);
+        const DVec3 a(positions_[x]);
+        return glm::cross(DVec3(positions_[y]) - a, DVec3(positions_[z]) - a);
       };
       const DVec3 before = normal(c[0], c[1], c[2]);
       if (glm::dot(normal(first[c[0]], first[c[1]], first[c[2]]), before) > kLeastArea * glm::dot(before, before))
         continue;
-      for (const std::uint32_t corner : c) kept[first[corner]] = 1;
+      for (int k = 0; k < 3; ++k) kept[first[c[k]]] = 1;
       any = true;
     }
     if (any)
@@ -126,17 +104,14 @@ class Seams {
     return any;
   }
 
-  Scene& scene_;
-  const Surface& surface_;
-  std::vector<Vec3> places_;             // ascending by x, y, z
-  std::vector<std::uint32_t> place_of_;  // by vertex
+  std::span<Vec3> positions_;
+  std::vector<std::uint32_t> corners_;  // welded, three a triangle
 };
 
 }  // namespace
 
 void join_seams(Scene& scene) {
   for (const Surface& surface : scene.surfaces) Seams(scene, surface).join();
-  keep_face_normals(scene);
 }
 
 }  // namespace oriel

@@ -8,12 +8,11 @@
 #include <span>
 
 #include "bake/import/warning_group.h"
+#include "bake/scene/edges.h"
 #include "formats/core/disjoint_sets.h"
 
 namespace oriel {
 namespace {
-
-using Corner = std::array<float, 3>;
 
 // Triangles of a shell that hang together. Volume: m³, below 0 where fronts face inwards.
 struct Piece {
@@ -50,13 +49,13 @@ struct Shell {
   }
 };
 
-std::vector<Piece> pieces_of(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Piece> each,
-                             std::size_t corners) {
-  DisjointSets sets(corners);
-  for (const auto& id : triangles) sets.join(id[0], id[1]), sets.join(id[0], id[2]);
+// corners: welded, three a triangle.
+std::vector<Piece> pieces_of(std::span<const std::uint32_t> corners, std::span<const Piece> each) {
+  DisjointSets sets(corners.size());
+  for (std::size_t c = 0; c < corners.size(); ++c) sets.join(corners[c], corners[c / 3 * 3]);
   std::map<std::size_t, Piece> found;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    Piece& piece = found[sets.root(triangles[t][0])];
+  for (std::size_t t = 0; t < each.size(); ++t) {
+    Piece& piece = found[sets.root(corners[3 * t])];
     piece.volume += each[t].volume, piece.area += each[t].area;
     piece.triangles.push_back(each[t].triangles[0]);
     piece.lower = glm::min(piece.lower, each[t].lower), piece.upper = glm::max(piece.upper, each[t].upper);
@@ -67,38 +66,29 @@ std::vector<Piece> pieces_of(std::span<const std::array<std::uint32_t, 3>> trian
 }
 
 Shell shell_of(const Scene& scene, const std::vector<std::uint32_t>& surfaces) {
-  std::map<Corner, std::uint32_t> corners;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // low to high corner: how often, less the other way
-  std::vector<std::array<std::uint32_t, 3>> triangles;           // by corner
-  std::vector<Piece> each;                                       // by triangle
+  std::vector<Vec3> places;  // three a triangle
+  std::vector<Piece> each;   // by triangle
   Shell shell;
   for (const std::uint32_t s : surfaces) {
     const Surface& surface = scene.surfaces[s];
-    for (std::uint32_t t = 0; t < surface.triangle_count; ++t) {
-      const UVec3& triangle = scene.triangles[surface.first_triangle + t];
-      std::array<std::uint32_t, 3>& id = triangles.emplace_back();
+    for (const UVec3& t : std::span(scene.triangles).subspan(surface.first_triangle, surface.triangle_count)) {
       Piece& piece = each.emplace_back();
       DVec3 p[3];
       for (int k = 0; k < 3; ++k) {
-        const Vec3 at = scene.positions[triangle[k]] + 0.0f;  // -0 is 0
-        p[k] = DVec3(at);
-        piece.lower = glm::min(piece.lower, at), piece.upper = glm::max(piece.upper, at);
-        const auto number = static_cast<std::uint32_t>(corners.size());
-        id[static_cast<std::size_t>(k)] = corners.try_emplace(Corner{at.x, at.y, at.z}, number).first->second;
+        p[k] = DVec3(places.emplace_back(scene.positions[t[k]]));
+        piece.lower = glm::min(piece.lower, places.back()), piece.upper = glm::max(piece.upper, places.back());
       }
       piece.volume = glm::dot(p[0], glm::cross(p[1], p[2])) / 6;
       piece.triangles = {{p[0], p[1], p[2]}};
       piece.area = glm::length(glm::cross(p[1] - p[0], p[2] - p[0])) / 2;
       shell.volume += piece.volume;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t from = id[k], to = id[(k + 1) % 3];
-        edges[std::minmax(from, to)] += from < to ? 1 : -1;
-      }
     }
   }
-  shell.open_edges =
-      static_cast<std::size_t>(std::ranges::count_if(edges, [](const auto& e) { return e.second != 0; }));
-  if (shell.is_closed()) shell.pieces = pieces_of(triangles, each, corners.size());
+  const std::vector<std::uint32_t> corners = weld(places);
+  for_each_edge(edge_uses(corners), [&](std::span<const EdgeUse> uses) {
+    if (2 * std::ranges::count_if(uses, &EdgeUse::forward) != std::ssize(uses)) ++shell.open_edges;
+  });
+  if (shell.is_closed()) shell.pieces = pieces_of(corners, each);
   return shell;
 }
 

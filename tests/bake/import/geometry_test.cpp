@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bake/import/repair.h"
+#include "bake/scene/edges.h"
 #include "tests/bake/import/gltf_maker.h"
 
 namespace oriel::test {
@@ -327,19 +328,41 @@ TEST(TooManyTriangles, OfOneMeshAreRefused) {
   EXPECT_NE(r.error().find("give more time"), std::string::npos) << r.error();
 }
 
+TEST(Edges, OfAllTrianglesAreTogether) {
+  // A square of two triangles; its corners are written twice, and once as -0.
+  const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-0.0f, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const std::vector<std::uint32_t> corners = weld(p);
+  EXPECT_EQ(corners, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 5}));
+  std::vector<std::string> edges;
+  for_each_edge(edge_uses(corners), [&](std::span<const EdgeUse> uses) {
+    std::string& edge = edges.emplace_back(fmt::format("{}-{}:", uses[0].low, uses[0].high));
+    for (const EdgeUse& use : uses) edge += fmt::format(" {}{}", use.corner, use.forward ? "+" : "-");
+  });
+  EXPECT_EQ(edges, (std::vector<std::string>{"0-1: 0+", "0-2: 2- 3+", "0-5: 5-", "1-2: 1+", "2-5: 4+"}));
+  EXPECT_TRUE(edge_uses(std::vector<std::uint32_t>{0, 1, 0}).empty());
+  EXPECT_TRUE(edge_uses({}).empty());
+}
+
 TEST(Repair, SeesWhatIsOddAndNothingElse) {
-  const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
-  const std::vector<UVec3> tetrahedron{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  EXPECT_EQ(inspect_soup(p, tetrahedron).misoriented_triangles, 0u);
-  EXPECT_EQ(inspect_soup(p, tetrahedron).non_manifold_edges, 0u);
+  using Corners = std::vector<std::uint32_t>;
+  const Corners tetrahedron{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  EXPECT_EQ(inspect_soup(tetrahedron).misoriented_triangles, 0u);
+  EXPECT_EQ(inspect_soup(tetrahedron).non_manifold_edges, 0u);
   for (std::size_t turned = 0; turned < 4; ++turned) {
-    auto odd = tetrahedron;
-    std::swap(odd[turned].x, odd[turned].y);
-    EXPECT_EQ(inspect_soup(p, odd).misoriented_triangles, 1u) << turned;
+    Corners odd = tetrahedron;
+    std::swap(odd[3 * turned], odd[3 * turned + 1]);
+    EXPECT_EQ(inspect_soup(odd).misoriented_triangles, 1u) << turned;
   }
-  auto fin = tetrahedron;
-  fin.emplace_back(0, 1, 4);
-  EXPECT_EQ(inspect_soup(p, fin).non_manifold_edges, 1u);
+  Corners fin = tetrahedron;
+  fin.insert(fin.end(), {0, 1, 4});
+  EXPECT_EQ(inspect_soup(fin).non_manifold_edges, 1u);
+  // A strip of eleven triangles, joined with a twist, has one side. It is cut at its last edge, from 9 to 10: two
+  // triangles beyond face against the others.
+  Corners strip;
+  for (std::uint32_t i = 0; i < 11; ++i) strip.insert(strip.end(), {i, (i + 1 + i % 2) % 11, (i + 2 - i % 2) % 11});
+  EXPECT_EQ(inspect_soup(strip).misoriented_triangles, 2u);
+  std::swap(strip[12], strip[13]);
+  EXPECT_EQ(inspect_soup(strip).misoriented_triangles, 3u);
 }
 
 // Two triangles, of which one shows its back.
