@@ -59,7 +59,7 @@ export function trianglesOf(emitter: Emitter, mesh: Mesh, materials: Material[])
   const normal = v.normalize(area, [0, 0, 0]), tolerance = v.length(normal) > 0 ? 1e-3 * size : -1;
   const inwards = c.map((corner, i) => v.normalize(v.cross(normal, v.sub(c[(i + 1) % n]!, corner)), [0, 0, 0]));
   const holds = (index: number): boolean => {
-    const p: Vec3 = [mesh.positions[3 * index]!, mesh.positions[3 * index + 1]!, mesh.positions[3 * index + 2]!];
+    const p = v.at(mesh.positions, index);
     return Math.abs(v.dot(v.sub(p, c[0]!), normal)) <= tolerance && c.every((corner, i) => v.dot(v.sub(p, corner), inwards[i]!) >= -tolerance);
   };
   const out: { part: Part; indices: number[] }[] = [];

@@ -193,10 +193,7 @@ export class Renderer {
 
   drawTransparent(scene: GpuScene, view: View): void {
     const { gl } = this.device, m = view.viewFromPack;
-    const depth = (r: Range): number => {
-      const c = v.centre(r.bounds);
-      return m[2]! * c[0] + m[6]! * c[1] + m[10]! * c[2];
-    };
+    const towards: v.Vec3 = [m[2]!, m[6]!, m[10]!], depth = (r: Range): number => v.dot(towards, v.centre(r.bounds));
     const sorted = scene.transparent.filter((r) => v.mayBeVisible(view.clipFromPack, r.bounds)).sort((a, b) => depth(a) - depth(b));
     if (sorted.length === 0) return;
     this.setFrame(this.transparent, scene, view, false);
@@ -212,7 +209,8 @@ export class Renderer {
         program.set('u_weights', [1, undirected, 1]);
         scene.draw(range);
       };
-      if (!covers) draw({ blend: 'multiply' }, true, 0);
+      if (covers) scene.orderFarToNear(range, towards);
+      else draw({ blend: 'multiply' }, true, 0);
       const blend = covers ? 'cover' : 'add';
       draw({ blend, stencilFunc: view.mirrored ? undefined : gl.EQUAL }, false, 1);
       if (!view.mirrored) draw({ blend, stencilFunc: gl.NOTEQUAL }, false, 0);

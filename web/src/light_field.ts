@@ -61,7 +61,7 @@ function towards(field: LightField, probe: number, d: Vec3): [number, number] {
 
 /** How likely a probe sees p. */
 function sight(field: LightField, probe: number, p: Vec3): number {
-  const to = v.sub(p, [field.positions[3 * probe]!, field.positions[3 * probe + 1]!, field.positions[3 * probe + 2]!]), distance = v.length(to);
+  const to = v.sub(p, v.at(field.positions, probe)), distance = v.length(to);
   if (!(distance > 0)) return 1;
   const [mean, square] = towards(field, probe, v.scale(to, 1 / distance)), behind = distance / field.depthCap - mean;
   if (behind <= 0) return 1;

@@ -15,7 +15,7 @@ export function rayThrough(camera: Camera, x: number, y: number, aspect: number)
 }
 
 export function pick(scene: GpuScene, from: Vec3, way: Vec3): Hit | undefined {
-  const mesh = scene.data.mesh!, p = mesh.positions, at = (i: number): Vec3 => [p[3 * i]!, p[3 * i + 1]!, p[3 * i + 2]!];
+  const mesh = scene.data.mesh!, p = mesh.positions, at = (i: number): Vec3 => v.at(p, i);
   let best: { t: number; index: number; u: number; w: number; page: number; normal: Vec3 } | undefined;
   for (const part of mesh.parts) {
     const twoSided = scene.data.materials[part.material]!.doubleSided;

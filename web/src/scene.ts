@@ -17,6 +17,8 @@ import type { Emitter, EmissionTexture, Material, Page, PageGroups, Sections, Sh
 import type { Bounds, Mat4, Vec3 } from './vec';
 
 export interface Range { first: number; count: number; material: number; page: number; bounds: Bounds; }
+/** from: its first one in the mesh's indices; ordered: for which view. */
+export interface SeeThrough extends Range { from: number; ordered?: string; }
 export interface GpuReflector {
   index: number; material: number; first: number; count: number; packFromReflector: Mat4; reflectorFromPack: Mat4;
   corners: Vec3[]; size: number; flatness: number; emitters?: ReflectorEmitters; dark: Range[];
@@ -44,7 +46,7 @@ export function makeDevice(gl: WebGL2RenderingContext): Device {
 export class GpuScene {
   readonly bounds: Bounds = v.emptyBounds();
   readonly opaque: Range[] = [];
-  readonly transparent: Range[] = [];
+  readonly transparent: SeeThrough[] = [];
   readonly reflectors: GpuReflector[] = [];
   readonly curved: GpuCurved[];
   readonly surrounds: GpuSurround[] = [];
@@ -128,7 +130,7 @@ export class GpuScene {
 
   private facesInward(indices: number[], range: Range): boolean {
     const p = this.data.mesh!.positions, middle = v.centre(range.bounds);
-    const at = (i: number): v.Vec3 => v.sub([p[3 * indices[i]!]!, p[3 * indices[i]! + 1]!, p[3 * indices[i]! + 2]!], middle);
+    const at = (i: number): v.Vec3 => v.sub(v.at(p, indices[i]!), middle);
     let volume = 0;
     for (let i = range.first; i < range.first + range.count; i += 3) volume += v.dot(at(i), v.cross(at(i + 1), at(i + 2)));
     return volume < 0;
@@ -140,7 +142,7 @@ export class GpuScene {
     for (const part of parts) {
       const range = this.rangeOf(indices, mesh.indices.subarray(part.first, part.first + part.count), part.material, part.page);
       const transparent = this.isTransparent(part.material);
-      if (transparent) this.transparent.push(range);
+      if (transparent) this.transparent.push({ ...range, from: part.first });
       if (!transparent || isPartlyOpaque(this.data.materials[part.material]!)) this.opaque.push(range);
       v.extend(this.bounds, ...range.bounds.lower);
       v.extend(this.bounds, ...range.bounds.upper);
@@ -325,6 +327,16 @@ export class GpuScene {
   bindGeometry(): void {
     this.device.gl.bindVertexArray(this.array);
     bind(this.device.gl, 'u_reflectance', this.reflectance);
+  }
+  /** As bind_far_to_near() of player/scene/gpu_scene.cpp; of the bound geometry. towards: the eye, along the view. */
+  orderFarToNear(range: SeeThrough, towards: Vec3): void {
+    if (range.ordered === towards.join()) return;
+    const { gl } = this.device, { positions, indices } = this.data.mesh!, order = new Uint32Array(range.count);
+    const depth = (i: number): number => [0, 1, 2].reduce((sum, k) => sum + v.dot(towards, v.at(positions, indices[i + k]!)), 0);
+    const triangles = Array.from({ length: range.count / 3 }, (_, t) => ({ i: range.from + 3 * t, depth: depth(range.from + 3 * t) }));
+    triangles.sort((a, b) => a.depth - b.depth).forEach(({ i }, t) => order.set(indices.subarray(i, i + 3), 3 * t));
+    gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, 4 * range.first, order);
+    range.ordered = towards.join();
   }
   draw(range: { first: number; count: number }): void {
     const { gl } = this.device;
