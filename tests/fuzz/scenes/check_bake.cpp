@@ -101,7 +101,8 @@ Ran run_limited(const std::vector<std::string>& arguments, const std::filesystem
 }
 
 double irradiance_bound(const Sources& s, double texel_m) {
-  const double surfaces = kPiD * s.radiance * std::min(kMostBounces, kGrazing * series(s.lamp_albedo));
+  const double surfaces =
+      kPiD * s.index * s.index * s.radiance * std::min(kMostBounces, kGrazing * series(s.lamp_albedo));
   const double points = s.power_lm / (texel_m * texel_m) + s.illuminance;
   return surfaces + kNoise * points * series(s.albedo);
 }

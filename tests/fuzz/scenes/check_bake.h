@@ -33,8 +33,9 @@ Ran run_limited(const std::vector<std::string>& arguments, const std::filesystem
 
 // The largest irradiance that light from these sources can bring to a texel of at least that size, lux. Surfaces only:
 // with emission L_e and directional reflectance ρ the light of a furnace L = L_e / (1 - ρ) is an upper bound
-// everywhere, whatever the other surfaces are made of, as long as they are passive. Lamps that are points bring at most
-// all of their power to one texel, over and over: 1 / (1 - ρ) times, or as many times as paths are followed.
+// everywhere, whatever the other surfaces are made of, as long as they are passive; within glass of index n it is n²
+// times as much. Lamps that are points bring at most all of their power to one texel, over and over: 1 / (1 - ρ) times,
+// or as many times as paths are followed.
 double irradiance_bound(const Sources& sources, double texel_m);
 
 // What is wrong with numbers of a pack; empty: nothing.

@@ -73,9 +73,10 @@ TEST(FuzzScenes, AProgramThatRunsTooLongIsKilled) {
   EXPECT_EQ(ran.code, -9);
 }
 
-// L = L_e / (1 - ρ) in a closed furnace, and all of a lamp's power on one texel.
+// L = L_e / (1 - ρ) in a closed furnace, n² times that in glass there, and all of a lamp's power on one texel.
 TEST(FuzzScenes, TheBoundHoldsAFurnace) {
   EXPECT_GE(irradiance_bound({.radiance = 10, .lamp_albedo = 0.75, .albedo = 0.75}, 0.1), kPiD * 10 / 0.25);
+  EXPECT_GE(irradiance_bound({.radiance = 10, .lamp_albedo = 0.75, .index = 2}, 0.1), kPiD * 4 * 10 / 0.25);
   EXPECT_GE(irradiance_bound({.power_lm = 100, .albedo = 0.5}, 0.1), 100 / 0.01 / 0.5);
   EXPECT_LT(irradiance_bound({.radiance = 10, .albedo = 1}, 0.1), 1e4);
 }

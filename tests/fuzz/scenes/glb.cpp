@@ -63,6 +63,8 @@ int Glb::add_material(Json m) {
   if (emission > 0) sources_.lamp_albedo = std::max(sources_.lamp_albedo, albedo);
   const Json extensions = m.value("extensions", Json::object());
   for (const auto& [name, value] : extensions.items()) use(name.c_str());
+  if (extensions.contains("KHR_materials_volume"))
+    sources_.index = std::max(sources_.index, extensions.value("KHR_materials_ior", Json::object()).value("ior", 1.5));
   json_["materials"].push_back(std::move(m));
   return last(json_["materials"]);
 }

@@ -27,6 +27,7 @@ struct Sources {
   double illuminance = 0;  // of all directional lights, lux
   double lamp_albedo = 0;  // the largest of an emissive surface
   double albedo = 0;       // the largest of any surface
+  double index = 1;        // the largest of solid glass
   std::size_t lights = 0;  // punctual ones
   std::size_t triangles = 0;
 };
