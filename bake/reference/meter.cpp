@@ -122,7 +122,7 @@ Vec3 Meter::sample_frosted(const Place& place, std::uint64_t stream, std::uint32
   Vec3 sum(0);
   if (frosted.empty()) return sum;
   Sampler sampler(context_.seed + 0xf057, stream, k);
-  frosted.choose(DVec3(place.receiver.position), 0, sampler.next1(), [&](std::size_t i, float weight) {
+  frosted.choose(DVec3(place.receiver.position), sampler.next1(), [&](std::size_t i, float weight) {
     const Vec2 of_light = sampler.next2();
     const MirroredSample s = frosted.sample(i, t_.lights, place.receiver.position, {of_light, sampler.next2()});
     const Vec3 value = s.endless * (weight * incidence(place.receiver, s.direction));

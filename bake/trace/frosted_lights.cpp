@@ -78,6 +78,7 @@ FrostedLights::FrostedLights(const Scene& scene) : scene_(&scene) {
     middle_.push_back(sum), extent_.push_back(0);
     for (const DVec3& corner : panes_[m].hull) extent_.back() = std::max(extent_.back(), glm::distance(corner, sum));
   }
+  of_pane_.resize(panes_.size()), power_.resize(panes_.size());
   for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
     const Light& light = scene.lights[l];
     const bool afar = light.type == LightType::kDirectional;
@@ -92,8 +93,9 @@ FrostedLights::FrostedLights(const Scene& scene) : scene_(&scene) {
       const double size = std::sqrt(pane.area_m2);
       const double own = power * pane.area_m2 * (afar ? behind : 1 / (pane.area_m2 + behind * behind + size * behind));
       if (!(own > 0)) continue;
+      of_pane_[m].push_back(ways_.size());
+      power_[m].push_back((power_[m].empty() ? 0 : power_[m].back()) + own);
       ways_.push_back({l, m});
-      power_.push_back(own);
     }
   }
 }
@@ -153,18 +155,16 @@ MirroredSample FrostedLights::sample(std::size_t i, const LightSet& lights, cons
   return sample;
 }
 
-double FrostedLights::worth(std::size_t i, const DVec3& centre, double radius) const {
-  const PlanarMirror& pane = panes_[ways_[i].pane];
-  if (!may_reach(i, centre, radius)) return 0;
-  const double nearest = std::max(0.0, glm::distance(middle_[ways_[i].pane], centre) - radius - extent_[ways_[i].pane]);
-  return power_[i] / (pane.area_m2 + nearest * nearest);
+double FrostedLights::worth(std::size_t pane, const DVec3& p) const {
+  if (power_[pane].empty() || !(panes_[pane].height(p) > 0)) return 0;
+  const double nearest = std::max(0.0, glm::distance(middle_[pane], p) - extent_[pane]);
+  return power_[pane].back() / (panes_[pane].area_m2 + nearest * nearest);
 }
 
 std::optional<PlanarMirrors::On> FrostedLights::point_by_area(std::size_t pane, const Vec2& v) const {
   const std::vector<double>& areas = areas_[pane];
   const double at = double{v.y} * areas.back();
-  const std::size_t k =
-      std::min<std::size_t>(std::upper_bound(areas.begin(), areas.end(), at) - areas.begin(), areas.size() - 1);
+  const std::size_t k = at_or_below(areas, at);
   const double before = k > 0 ? areas[k - 1] : 0, own = areas[k] - before;
   if (!(own > 0)) return std::nullopt;
   const auto rest = static_cast<float>(std::clamp((at - before) / own, 0.0, 1.0));

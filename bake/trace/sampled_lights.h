@@ -109,7 +109,7 @@ void sample_frosted(const Tracing& by, const SurfacePoint& surface, const Reflec
   const FrostedLights& frosted = t.lights.frosted();
   if (frosted.empty()) return;
   const Receiver receiver = receiver_of(surface);
-  frosted.choose(DVec3(receiver.position), 0, sampler.next1(), [&](std::size_t i, float weight) {
+  frosted.choose(DVec3(receiver.position), sampler.next1(), [&](std::size_t i, float weight) {
     const Vec2 of_light = sampler.next2();
     MirroredSample light = frosted.sample(i, t.lights, receiver.position, {of_light, sampler.next2()});
     if (light.legs == 0 || !(incidence(receiver, light.direction) > 0)) return;

@@ -15,26 +15,27 @@ namespace {
 constexpr std::uint32_t kEyes = 128;          // on the floors
 constexpr std::uint32_t kPlaces = 512;        // elsewhere
 constexpr std::size_t kMost = 64;             // of them
-constexpr std::uint32_t kPaths = 32;          // from each
+constexpr std::uint32_t kFew = 4;             // paths from each, that tell of most scenes that their floors are lit
+constexpr std::uint32_t kPaths = 32;          // otherwise
 constexpr double kDark = 1e-5;                // of the light elsewhere: a crack in a shell; a cinema has ten times that
 constexpr std::uint64_t kStream = 0x11614e7;  // of random numbers
 constexpr std::uint32_t kBodyPoints = 2048;   // of a scene that may be a body alone
 constexpr std::array<float, 2> kAround{1.2f, 2.2f};  // of the scene's radius: how far eyes are from its middle
 
 // By eye: the mean luminance around it, cd/m².
-Result<std::vector<double>> light_around(const Transport& transport, std::span<const Vec3> eyes, std::uint64_t stream,
-                                         Context& context) {
+Result<std::vector<double>> light_around(const Transport& transport, std::span<const Vec3> eyes, std::uint32_t paths,
+                                         std::uint64_t stream, Context& context) {
   // Whether light comes at all is known long before the last bounce of a white room.
   Transport t = transport;
   t.options.max_bounces = std::min(t.options.max_bounces, 32);
   std::vector<double> found(eyes.size());
   ORIEL_TRY_VOID(parallel_for(context, "", eyes.size(), [&](std::size_t i) {
     std::uint64_t rays = 0;
-    for (std::uint32_t k = 0; k < kPaths; ++k) {
+    for (std::uint32_t k = 0; k < paths; ++k) {
       Sampler sampler(context.seed, stream + i, k);
       const PathLight light = trace_path(t, {eyes[i], square_to_sphere(sampler.next2())}, 0, sampler, rays);
       const double seen = luminance(light.emitted + light.sky + light.scattered);
-      if (std::isfinite(seen)) found[i] += seen / kPaths;
+      if (std::isfinite(seen)) found[i] += seen / paths;
     }
   }));
   return found;
@@ -107,15 +108,18 @@ Result<double> share_also_seen(const Accel& accel, std::span<const SurfacePoint>
 
 Status leave_the_dark(const Transport& transport, EyeRegion& region, Context& context) {
   if (region.grids.empty() || !region.points.empty()) return {};
-  ORIEL_TRY(const std::vector<double> on_floors,
-            light_around(transport, sample_eyes(region, kEyes, context.seed), kStream, context));
+  const std::vector<Vec3> floors = sample_eyes(region, kEyes, context.seed);
   const float beside = 0.5f * max_component(region.upper - region.lower);
   EyeRegion around, anywhere;
   around.lower = region.lower - Vec3(beside, 0, beside), around.upper = region.upper + beside;
   const std::vector<Vec3> places = sample_eyes(around, kPlaces, context.seed);
-  ORIEL_TRY(const std::vector<double> seen, light_around(transport, places, kStream + kEyes, context));
   const auto mean = [](const std::vector<double>& of) { return std::reduce(of.begin(), of.end()) / of.size(); };
-  if (mean(on_floors) > kDark * mean(seen)) return {};
+  std::vector<double> seen;
+  for (const std::uint32_t paths : {kFew, kPaths}) {
+    ORIEL_TRY(const std::vector<double> on_floors, light_around(transport, floors, paths, kStream, context));
+    ORIEL_TRY(seen, light_around(transport, places, paths, kStream + kEyes, context));
+    if (mean(on_floors) > kDark * mean(seen)) return {};
+  }
   anywhere.lower = region.lower, anywhere.upper = region.upper;
   for (std::size_t i = 0; i < places.size() && anywhere.points.size() < kMost; ++i)
     if (seen[i] > 0) anywhere.points.push_back(places[i]);

@@ -217,7 +217,7 @@ void DirectGroup::sample_frosted() {
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
       const Point& point = points_[p];
       Sampler sampler(d_.seed_ + seeds::kFrostedLight + pick, stream_of(list_[point.texel], point.half), point.k);
-      frosted.choose(DVec3(point.sample_point.origin), 0, sampler.next1(), [&](std::size_t i, float weight) {
+      frosted.choose(DVec3(point.sample_point.origin), sampler.next1(), [&](std::size_t i, float weight) {
         const Vec2 of_light = sampler.next2();
         MirroredSample s = frosted.sample(i, d_.t_.lights, point.sample_point.origin, {of_light, sampler.next2()});
         const float share =

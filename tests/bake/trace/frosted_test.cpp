@@ -235,10 +235,12 @@ TEST(Frosted, ExtremesStayFinite) {
 
 TEST(Frosted, ManyLightsAreChosenWithoutBias) {
   SceneParts few, many;
-  for (SceneParts* parts : {&few, &many})
+  for (SceneParts* parts : {&few, &many}) {
     parts->quad("pane", parts->add(frosted(0.6f)), {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
-  few.scene().lights = {point_light({0, 0, -1}, 40)};
-  many.scene().lights.assign(40, point_light({0, 0, -1}, 1));
+    parts->quad("beside", parts->add(frosted(0.6f)), {1, -1, 0}, {1, 0, 1}, {0, 2, 0});
+  }
+  few.scene().lights = {point_light({1, 0, -1}, 40)};
+  many.scene().lights.assign(40, point_light({1, 0, -1}, 1));
   for (int i = 0; i < 60; ++i) many.scene().lights.push_back(point_light({0, 0, 1}, 0));
   const double one = LightMeter(few.finish()).at({0.3f, 0, 1}, {0, 0, -1}, 20000).g;
   EXPECT_NEAR(LightMeter(many.finish()).at({0.3f, 0, 1}, {0, 0, -1}, 4000).g / one, 1, 0.03);
