@@ -89,6 +89,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"tbb/", {"bake/jobs"}},
     {"OpenImageIO/", {"bake/import", "convert/importer"}},
     {"assimp/", {"convert/importer"}},
+    {"CGAL/", {"bake/import"}},
     {"OpenMesh/", {"bake/atlas"}},
     {"Eigen/", {"bake/atlas", "bake/radiosity", "bake/transfer"}},
     {"boost/", {"bake/scene"}},
@@ -311,7 +312,7 @@ TEST(Layers, PlayerAndInspectorLinkNoBaker) {
   for (const char* program : {"oriel-play", "oriel-inspect"}) {
     const std::string libraries = libraries_of(program);
     EXPECT_NE(libraries.find("libzstd"), std::string::npos) << "ldd printed nothing of use";
-    for (const char* heavy : {"embree", "tbb", "OpenImageIO", "OpenMesh", "draco"})
+    for (const char* heavy : {"embree", "tbb", "OpenImageIO", "CGAL", "OpenMesh", "draco"})
       EXPECT_EQ(libraries.find(heavy), std::string::npos) << program << " links " << heavy;
   }
 }
