@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "formats/analysis/error_bands.h"
-#include "formats/analysis/texel_diff.h"
 #include "formats/image/display.h"
 
 namespace oriel::trade {

@@ -98,7 +98,7 @@ ToolCommand verify_command(BakeSession& session) {
           {"--cache", "Run", "Its cache. Default: .oriel-cache beside the pack", path(args->cache, "DIR"),
            Use::kEveryday},
           {"--sample", "Run", "Share of the units in the cache that are computed again and compared",
-           quantity(args->sample, "SHARE", parse_fraction, share_text), Use::kEveryday}}};
+           quantity(args->sample, "SHARE", parse_share, share_text), Use::kEveryday}}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };

@@ -75,7 +75,7 @@ ToolCommand lux_command(BakeSession& session) {
           {"--error", "Meters",
            "Standard error asked for, of luminance, relative to the point's illuminance plus 1 % of the mean "
            "over all points",
-           quantity(job.lux.relative_error, "SHARE", parse_fraction, share_text), Use::kEveryday},
+           quantity(job.lux.relative_error, "SHARE", parse_share, share_text), Use::kEveryday},
           {"--samples", "Meters",
            "Paths a point at most; without --error exactly so many. Rounded down to a power of two, at least "
            "1024",

@@ -84,7 +84,7 @@ std::vector<Option> frame_options(RenderArguments& args) {
       {"--error", kFrame,
        "Instead of --samples: so many that the sum's standard error is at most this, relative, root mean square over "
        "the frame, dark pixels by 1 % of the mean",
-       quantity(args.frame.error, "SHARE", parse_fraction, share_text), Use::kEveryday},
+       quantity(args.frame.error, "SHARE", parse_share, share_text), Use::kEveryday},
       {"--samples", kFrame, "Paths a pixel for each component, best a power of two",
        number(args.frame.samples, 1, kMostSamples), Use::kEveryday, "", "", "--error"},
       {"--no-antialias", kFrame,

@@ -4,7 +4,6 @@
 #include "bake/run/option_values.h"
 #include "bake/trace/virtual_lights.h"
 #include "formats/core/json.h"
-#include "formats/core/text.h"
 
 namespace oriel {
 namespace {
@@ -43,7 +42,7 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "The error asked for, as people see it: root mean square over the pixels that eyes in the scene see, relative, "
        "dark ones to a tenth of the mean. Steps of 1 to 2 % are what one can just see. Work stops there. Where none is "
        "given, it also stops when a scene has had its share of rays (a minute or two), with the error stated then",
-       quantity(r.error, "SHARE", parse_fraction, share_text), Use::kEveryday, "error", "oriel-bake.md#accuracy"},
+       quantity(r.error, "SHARE", parse_share, share_text), Use::kEveryday, "error", "oriel-bake.md#accuracy"},
       {"--time", kLightmap,
        "Wall clock of the whole bake. The lightmap is refined for what its other parts leave, reflections get fewer "
        "pixels where they would take half of it. With --error, whichever comes first. The pack then depends on the "
@@ -66,7 +65,7 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "After an edit of the scene: keep the light of the last whole bake in the cache, with these options, where the "
        "edit changes it by no more than that, relative. The error that this brings is measured and stated. The pack "
        "then depends on the cache. Default: all is baked",
-       quantity(r.reuse_error, "SHARE", parse_fraction, share_text), Use::kRare, "reuse_error",
+       quantity(r.reuse_error, "SHARE", parse_share, share_text), Use::kRare, "reuse_error",
        "pipelines.md#after-an-edit"},
       {"--bounces", kLightmap,
        "Count so many reflections only; 0: all of them. Fewer darken the scene; for comparing with bakers that stop "
@@ -267,6 +266,7 @@ std::vector<Option> bake_options(BakeOptions& o) {
 Status settle(BakeOptions& o, const Given& given) {
   RadiosityOptions& r = o.radiosity;
   o.given = given.typed();
+  o.words = given.words(bake_options(o));
   o.error_named = given.has("--error");
   // Who says what maps are to be like wants maps.
   const bool maps_named = given.has("--views") || given.has("--map-resolution");

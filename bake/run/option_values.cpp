@@ -2,13 +2,7 @@
 
 #include <sstream>
 
-#include "formats/core/text.h"
-
 namespace oriel {
-
-std::string share_text(double share) {
-  return share > 0 ? fmt::format("{:.6g}%", 100 * share) : "";
-}
 
 std::string verify_text(double share) {
   return share > 0 ? share_text(share) : "off";

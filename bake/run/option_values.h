@@ -6,10 +6,10 @@
 #include "bake/run/options.h"
 #include "formats/cli/option.h"
 #include "formats/core/json.h"
+#include "formats/core/text.h"
 
 namespace oriel {
 
-std::string share_text(double share);  // "2%"; "" of 0
 std::string verify_text(double share);
 std::string length_text(float metres);
 std::string time_text(double seconds);  // "" of 0

@@ -26,19 +26,9 @@ Result<double> parse_duration(const std::string& text) {
   return parse_quantity(text, kUnits, "time", "30s, 10min or 2h");
 }
 
-Result<double> parse_fraction(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
-  if (error == std::errc() && std::isfinite(value) && value > 0 && (unit.empty() || unit == "%"))
-    return unit.empty() ? value : value / 100;
-  return fail(ErrorCode::kUsage, "", "found '{}', expected a share such as 2% or 0.02", text);
-}
-
 Result<double> parse_verify(const std::string& text) {
   if (text == "off") return 0.0;
-  if (const auto share = parse_fraction(text)) return *share;
-  return fail(ErrorCode::kUsage, "", "found '{}', expected a share such as 10% or 0.1, or off", text);
+  return parse_share(text);
 }
 
 Result<EyeOptions> parse_eye_source(const std::string& text) {

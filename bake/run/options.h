@@ -38,6 +38,7 @@ struct BakeOptions {
   BakeOptions& operator=(BakeOptions&&) noexcept;
 
   std::vector<std::string> given;  // long names of options that the command line has
+  std::vector<std::string> words;  // of a command line that gives those options of bake_options() that were given
   std::filesystem::path scene;     // .glb or .gltf
   std::filesystem::path output;    // .oriel
   ImportOptions import;
@@ -72,13 +73,11 @@ struct BakeOptions {
   bool reproducible = false;  // the same bytes on every CPU type
 };
 
-// Bytes: parse_bytes of formats/core/text.h.
+// Bytes and shares: formats/core/text.h.
 // "5cm", "0.05m", "50mm" as metres; a unit is required. Error kUsage.
 Result<float> parse_length(const std::string& text);
 // "30s", "10min" or "2h" as seconds; a unit is required. Error kUsage.
 Result<double> parse_duration(const std::string& text);
-// "2%" or "0.02" as a fraction, > 0. Error kUsage.
-Result<double> parse_fraction(const std::string& text);
 // "10%" or "off" as a fraction, >= 0. Error kUsage.
 Result<double> parse_verify(const std::string& text);
 // "walk", "box", or a file for parse_eyes(), which is read. Errors kUsage, kIo, kInvalid.

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "formats/analysis/texel_diff.h"
 #include "formats/analysis/texel_places.h"
 #include "formats/core/color.h"
 #include "formats/image/contrast_sensitivity.h"
@@ -169,6 +168,13 @@ void add_band(const std::vector<Block>& blocks, const std::vector<Block>& larger
 }
 
 }  // namespace
+
+bool same_texels(const Pack& a, const Pack& b) {
+  return a.mesh.lightmap_uvs == b.mesh.lightmap_uvs &&
+         std::ranges::equal(a.lightmaps, b.lightmaps, [](const LightmapPage& p, const LightmapPage& q) {
+           return p.width == q.width && p.height == q.height;
+         });
+}
 
 std::optional<ErrorBands> error_bands(const Pack& reference, const Pack& pack) {
   if (!same_texels(reference, pack)) return std::nullopt;

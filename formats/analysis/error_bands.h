@@ -10,6 +10,9 @@
 
 namespace oriel {
 
+// Whether the lightmaps' pages and the meshes' lightmap coordinates are the same.
+bool same_texels(const Pack& first, const Pack& second);
+
 // Blocks of 1, 2, 4, … 32 texels' side, within connected parts of charts. A band is what blocks differ by from those of
 // twice the side: it holds what is as large as its blocks and smaller than the next. Bands are orthogonal, the sum of
 // their squares and of `wider` is the squared error. Of white noise each has half of the one before.

@@ -10,9 +10,9 @@ namespace {
 SampledLight light_at(const LightmapPage& page, const Vec2& uv) {
   const TexelsAround around = texels_around(uv, page.width, page.height);
   SampledLight light;
-  light.lux = double{luminance(irradiance_at(page, uv))};
+  light.light = DVec3(irradiance_at(page, uv));
   for (std::size_t i = 0; i < 4; ++i) {
-    const double error = luminance(page.standard_error[around.texel[i]]);
+    const DVec3 error(page.standard_error[around.texel[i]]);
     // Texels beside each other share their noise: no gain from blending.
     light.variance += double{around.weight[i]} * error * error;
   }
@@ -40,10 +40,11 @@ PartLight light_of(const PartSampler& part, std::size_t points) {
   bool first = true;
   for_points(part, points, [&](std::size_t t, const Vec3& at, double weight) {
     const SampledLight light = part.at(t, at);
-    sums.mean += weight * light.lux;
-    sums.variance += weight * light.variance;
-    sums.lowest = first ? light.lux : std::min(sums.lowest, light.lux);
-    sums.highest = std::max(sums.highest, light.lux);
+    const double lux = luminance(light.light), error = luminance(glm::sqrt(light.variance));
+    sums.mean += weight * lux;
+    sums.variance += weight * error * error;
+    sums.lowest = first ? lux : std::min(sums.lowest, lux);
+    sums.highest = std::max(sums.highest, lux);
     first = false;
   });
   return sums;

@@ -8,8 +8,9 @@
 
 namespace oriel {
 
+// By channel, lux; the squared standard error.
 struct SampledLight {
-  double lux = 0, variance = 0;
+  DVec3 light{0}, variance{0};
 };
 
 // A part that has a lightmap page, of a pack that validate() finds no error in.
@@ -27,7 +28,7 @@ class PartSampler {
     for (std::size_t t = 0; t < triangles(); ++t) sum += area(t);
     return sum;
   }
-  SampledLight at(std::size_t t, const Vec3& barycentric) const;  // lux
+  SampledLight at(std::size_t t, const Vec3& barycentric) const;
 
  private:
   std::uint32_t vertex(std::size_t t, std::size_t c) const { return pack_.mesh.indices[part_.first_index + 3 * t + c]; }

@@ -39,6 +39,18 @@ Result<double> parse_quantity(const std::string& text, std::span<const Unit> uni
   return fail(ErrorCode::kUsage, "", "found '{}', expected a {} such as {}", text, what, example);
 }
 
+Result<double> parse_share(const std::string& text) {
+  static constexpr Unit kUnits[] = {{"%", 0.01}, {"", 1}};
+  ORIEL_TRY(const double share, parse_quantity(text, kUnits, "share", "2% or 0.02"));
+  if (text.back() == '%' || share <= 0.5) return share;
+  return fail(ErrorCode::kUsage, "", "found {0:g}, expected a share: write {0:g}% or {1}", share,
+              share > 1 ? fmt::format("{:g}", share / 100) : share_text(share));
+}
+
+std::string share_text(double share) {
+  return share > 0 ? fmt::format("{:.6g}%", 100 * share) : "";
+}
+
 Result<std::uint64_t> parse_bytes(const std::string& text) {
   static constexpr Unit kUnits[] = {{"B", 1},      {"kB", 1e3},      {"MB", 1e6},        {"GB", 1e9},
                                     {"KiB", 1024}, {"MiB", 1048576}, {"GiB", 1073741824}};

@@ -28,6 +28,10 @@ struct Unit {
 // says what was expected: "a length such as 10cm".
 Result<double> parse_quantity(const std::string& text, std::span<const Unit> units, const char* what,
                               const char* example);
+// "2%" or "0.02" as a fraction above 0. A number alone that is above a half may be either, and is refused. Error
+// kUsage.
+Result<double> parse_share(const std::string& text);
+std::string share_text(double share);  // "" for 0
 // "64MiB", "2GB", "500000B" as bytes. Error kUsage.
 Result<std::uint64_t> parse_bytes(const std::string& text);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ namespace oriel::inspect {
 inline constexpr const char* kVersion = ORIEL_VERSION;
 
 // The schema number in every JSON result. It rises when a field changes its meaning or goes.
-inline constexpr int kJsonSchema = 1;
+inline constexpr int kJsonSchema = 2;
 
 // What is inside: sections with sizes, maps with resolutions and statistics, options. All checksums are checked.
 int info(const std::filesystem::path& path, bool json);
@@ -42,12 +43,12 @@ int extract(const std::filesystem::path& path, const ExtractOptions& options);
 
 struct DiffOptions {
   bool json = false;
-  std::optional<double> tolerance;  // share of a surface's light that may change; none: any
-  std::size_t surfaces = 20;        // so many are printed, those that changed most; JSON holds all
+  double tolerance = std::numeric_limits<double>::infinity();  // share of what may change
+  std::size_t surfaces = 20;  // so many are printed, those that changed most; JSON holds all
 };
 
-// What changed between two packs: light by surface, sections, options; Markdown or JSON. Exit code 5 where a surface
-// changed by more than the tolerance, was added or has gone.
+// What changed between two packs: light by surface and camera, materials, lamps, shapes, cameras, sections, options;
+// Markdown or JSON. Exit code 5 where any of these changed by more than the tolerance, was added or has gone.
 int diff(const std::filesystem::path& before, const std::filesystem::path& after, const DiffOptions& options);
 
 struct WhyRequest {

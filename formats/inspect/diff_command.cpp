@@ -7,7 +7,6 @@
 
 #include "formats/analysis/error_bands.h"
 #include "formats/analysis/pack_diff.h"
-#include "formats/analysis/texel_diff.h"
 #include "formats/core/file.h"
 #include "formats/core/json.h"
 #include "formats/inspect/commands.h"
@@ -66,35 +65,12 @@ const char* text_of(SurfaceState state) {
   }
 }
 
-bool within(const PackDiff& diff, std::optional<double> tolerance) {
-  if (!tolerance) return true;
-  for (const SurfaceChange& s : diff.surfaces)
-    if (s.state != SurfaceState::kBoth) return false;
-  return diff.largest() <= tolerance;
-}
-
 std::string shortened(const std::string& text) {
   return text.empty() ? "-" : text.size() <= kLongest ? text : text.substr(0, kLongest) + "…";
 }
 
-void print_texels(const TexelDiff& t) {
-  fmt::print(
-      "\n## Texels\n\nThe atlas is the same: {} texels, relative to the first pack's light (its mean: {:.4g} lux).\n\n",
-      t.texels, t.mean_lux);
-  fmt::print("| | % |\n|---|---|\n");
-  const auto row = [](const char* what, double share) { fmt::print("| {} | {:.3g} |\n", what, 100 * share); };
-  row("difference (relRMSE)", t.difference);
-  row("noise of the first", t.noise);
-  row("error that the second states", t.stated);
-  row("net of the first's noise", t.net);
-  row("net, without the worst hundredth", t.net_without_worst);
-  row("net, relative to the brighter of both", t.net_of_brighter);
-  row("bias of the mean", t.bias);
-}
-
-// Both tell of texels; nothing where the atlases differ.
+// Nothing where the atlases differ.
 struct OfTexels {
-  std::optional<TexelDiff> all;
   std::optional<ErrorBands> bands;
   const std::vector<MeshPart>& parts;
 };
@@ -157,29 +133,59 @@ bool in_blocks(const PackDiff& diff) {
   return std::any_of(diff.surfaces.begin(), diff.surfaces.end(), [](const SurfaceChange& s) { return s.block_m > 0; });
 }
 
+std::string changes_text(const PackDiff& diff, const SurfaceChange& s) {
+  const DVec3 bias = glm::abs(s.bias_lux);
+  const int most = bias.r >= bias.g && bias.r >= bias.b ? 0 : bias.g >= bias.b ? 1 : 2;
+  const double by = s.change_lux() > 0 ? 100 * diff.share(s) / s.change_lux() : 0;
+  return fmt::format("{:.4g} | {:.4g} | {:.3g} | {:.1f} | {:.1f} | {:.1f}", s.before_lux, s.after_lux, s.bias_lux[most],
+                     by * s.mean_change_lux, by * s.rms_change_lux, by * s.p99_change_lux);
+}
+
+void print_light(const PackDiff& diff, std::size_t most) {
+  fmt::print(
+      "## Light\n\nMean of the first pack: {:.4g} lux. Largest change: {:.2f} %; of the mean of all: {:.2f} %.\n\n",
+      diff.mean_lux, 100 * diff.largest(), diff.mean_lux > 0 ? 100 * diff.bias_lux / diff.mean_lux : 0);
+  fmt::print(
+      "In % of the surface's light, beyond noise, of the channel that changed most.\n\n"
+      "| surface | material | m² | before, lux | after, lux | bias, lux | mean, % | RMS, % | p99, % | standard error, "
+      "lux | |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  const auto changed = static_cast<std::size_t>(std::ranges::count_if(
+      diff.surfaces, [](const SurfaceChange& s) { return s.change_lux() > 0 || s.state != SurfaceState::kBoth; }));
+  const std::size_t listed = std::min(most, changed);
+  for (std::size_t i = 0; i < listed; ++i) {
+    const SurfaceChange& s = diff.surfaces[i];
+    fmt::print("| {} | {} | {:.3g} | {} | {:.2g} → {:.2g} | {} |\n", s.name, s.material, s.area_m2,
+               changes_text(diff, s), s.before_error_lux, s.after_error_lux,
+               s.same_shape ? text_of(s.state) : "another shape");
+  }
+  if (changed > listed) fmt::print("\n{} more changed less.\n", changed - listed);
+  if (diff.surfaces.size() > changed)
+    fmt::print("\n{} surfaces did not change by more than their noise.\n", diff.surfaces.size() - changed);
+}
+
+void print_cameras(const PackDiff& diff) {
+  fmt::print(
+      "\n## Light that cameras see\n\n| camera | before, lux | after, lux | bias, lux | mean, % | RMS, % | p99, % "
+      "|\n|---|---|---|---|---|---|---|\n");
+  for (const SurfaceChange& s : diff.cameras) fmt::print("| {} | {} |\n", s.name, changes_text(diff, s));
+}
+
+void print_assets(const PackDiff& diff) {
+  fmt::print("\n## Materials, lamps, shapes, cameras\n\n| | | before | after | % |\n|---|---|---|---|---|\n");
+  for (const AssetChange& c : diff.assets)
+    fmt::print("| {} | {} | {} | {} | {:.3g} |\n", c.asset, c.member, shortened(c.before), shortened(c.after),
+               100 * c.change);
+}
+
 void print_markdown(const PackDiff& diff, const OfTexels& texels, const std::map<std::string, KindSizes>& kinds,
                     const DiffOptions& options) {
   fmt::print("{}\n", what_differs(diff));
   if (in_blocks(diff))
     fmt::print(
         "Texels are of other sizes: light is compared over blocks of four of the larger ones, not within them.\n\n");
-  fmt::print("## Light\n\nMean of the first pack: {:.4g} lux. Largest change of a surface: {:.2f} %.\n\n",
-             diff.mean_lux, 100 * diff.largest());
-  fmt::print("| surface | material | m² | before, lux | after, lux | change, lux | % | standard error, lux | |\n");
-  fmt::print("|---|---|---|---|---|---|---|---|---|\n");
-  const auto changed = static_cast<std::size_t>(std::ranges::count_if(
-      diff.surfaces, [](const SurfaceChange& s) { return s.change_lux() > 0 || s.state != SurfaceState::kBoth; }));
-  const std::size_t listed = std::min(options.surfaces, changed);
-  for (std::size_t i = 0; i < listed; ++i) {
-    const SurfaceChange& s = diff.surfaces[i];
-    fmt::print("| {} | {} | {:.3g} | {:.4g} | {:.4g} | {:.3g} | {:.1f} | {:.2g} → {:.2g} | {} |\n", s.name, s.material,
-               s.area_m2, s.before_lux, s.after_lux, s.change_lux(), 100 * diff.share(s), s.before_error_lux,
-               s.after_error_lux, s.same_shape ? text_of(s.state) : "another shape");
-  }
-  if (changed > listed) fmt::print("\n{} more changed less.\n", changed - listed);
-  if (diff.surfaces.size() > changed)
-    fmt::print("\n{} surfaces did not change by more than their noise.\n", diff.surfaces.size() - changed);
-  if (texels.all) print_texels(*texels.all);
+  print_light(diff, options.surfaces);
+  if (!diff.cameras.empty()) print_cameras(diff);
+  if (!diff.assets.empty()) print_assets(diff);
   if (texels.bands) print_bands(*texels.bands, texels.parts);
   fmt::print("\n## Sections\n\n| kind | before | after | bytes before | bytes after |\n|---|---|---|---|---|\n");
   for (const auto& [name, kind] : kinds)
@@ -190,10 +196,32 @@ void print_markdown(const PackDiff& diff, const OfTexels& texels, const std::map
     fmt::print("| {} | {} | {} |\n", o.name, shortened(o.before), shortened(o.after));
 }
 
+Json surface_json(const PackDiff& diff, const SurfaceChange& s) {
+  return {{"name", s.name},
+          {"material", s.material},
+          {"state", s.state == SurfaceState::kBoth ? "both" : text_of(s.state)},
+          {"same_shape", s.same_shape},
+          {"area_m2", s.area_m2},
+          {"before_lux", s.before_lux},
+          {"after_lux", s.after_lux},
+          {"bias_lux", {s.bias_lux.r, s.bias_lux.g, s.bias_lux.b}},
+          {"rms_lux", s.rms_lux},
+          {"noise_lux", s.noise_lux},
+          {"block_m", s.block_m},
+          {"mean_change_lux", s.mean_change_lux},
+          {"rms_change_lux", s.rms_change_lux},
+          {"p99_change_lux", s.p99_change_lux},
+          {"change_lux", s.change_lux()},
+          {"change", diff.share(s)},
+          {"before_error_lux", s.before_error_lux},
+          {"after_error_lux", s.after_error_lux}};
+}
+
 void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std::string, KindSizes>& kinds,
                 bool good) {
   Json out;
   out["schema"] = kJsonSchema;
+  for (const char* list : {"surfaces", "cameras", "assets"}) out[list] = Json::array();
   out["within_tolerance"] = good;
   const auto any = [&](bool input) {
     return std::any_of(diff.options.begin(), diff.options.end(), [&](const OptionChange& o) {
@@ -204,32 +232,12 @@ void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std
   out["settings_differ"] = any(false);
   out["mean_lux"] = diff.mean_lux;
   out["largest_change"] = diff.largest();
-  out["surfaces"] = Json::array();
-  for (const SurfaceChange& s : diff.surfaces)
-    out["surfaces"].push_back({{"name", s.name},
-                               {"material", s.material},
-                               {"state", s.state == SurfaceState::kBoth ? "both" : text_of(s.state)},
-                               {"same_shape", s.same_shape},
-                               {"area_m2", s.area_m2},
-                               {"before_lux", s.before_lux},
-                               {"after_lux", s.after_lux},
-                               {"rms_lux", s.rms_lux},
-                               {"noise_lux", s.noise_lux},
-                               {"block_m", s.block_m},
-                               {"change_lux", s.change_lux()},
-                               {"change", diff.share(s)},
-                               {"before_error_lux", s.before_error_lux},
-                               {"after_error_lux", s.after_error_lux}});
-  if (const auto& t = texels.all)
-    out["texels"] = {{"count", t->texels},
-                     {"mean_lux", t->mean_lux},
-                     {"difference", t->difference},
-                     {"noise", t->noise},
-                     {"stated", t->stated},
-                     {"net", t->net},
-                     {"net_without_worst_hundredth", t->net_without_worst},
-                     {"net_of_brighter", t->net_of_brighter},
-                     {"bias", t->bias}};
+  out["bias_lux"] = diff.bias_lux;
+  for (const SurfaceChange& s : diff.surfaces) out["surfaces"].push_back(surface_json(diff, s));
+  for (const SurfaceChange& s : diff.cameras) out["cameras"].push_back(surface_json(diff, s));
+  for (const AssetChange& c : diff.assets)
+    out["assets"].push_back(
+        {{"asset", c.asset}, {"member", c.member}, {"before", c.before}, {"after", c.after}, {"change", c.change}});
   if (texels.bands) {
     out["bands"] = {{"all", bands_json(texels.bands->all)}, {"surfaces", Json::array()}};
     for (const PartBands& p : texels.bands->parts) {
@@ -255,8 +263,8 @@ int diff(const std::filesystem::path& before, const std::filesystem::path& after
   const auto b = open(after);
   if (!b) return report(b.error());
   const PackDiff diff = diff_packs(a->pack, b->pack);
-  const OfTexels texels{diff_texels(a->pack, b->pack), error_bands(a->pack, b->pack), a->pack.mesh.parts};
-  const bool good = within(diff, options.tolerance);
+  const OfTexels texels{error_bands(a->pack, b->pack), a->pack.mesh.parts};
+  const bool good = diff.within(options.tolerance);
   const auto kinds = kinds_of(a->index, b->index);
   if (options.json)
     print_json(diff, texels, kinds, good);

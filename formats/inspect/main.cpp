@@ -1,8 +1,10 @@
 // oriel-inspect: what a pack holds, and whether it can be trusted. docs/oriel-inspect.md is its page.
+#include <cmath>
 #include <cstdio>
 #include <system_error>
 
 #include "formats/cli/command.h"
+#include "formats/core/text.h"
 #include "formats/inspect/commands.h"
 
 namespace oriel::inspect {
@@ -15,13 +17,13 @@ Exit codes:
   2  a file cannot be read or written
   3  the pack is damaged or invalid
   4  failed at run time: memory
-  5  for diff: the light changed by more than the tolerance; for validate --scene: the scene changed
+  5  for diff: more changed than the tolerance allows; for validate --scene: the scene changed
 
 Examples:
   oriel-inspect info house.oriel               what is inside, for people
   oriel-inspect info house.oriel --json        the same for programs
   oriel-inspect validate house.oriel           every checksum and every number
-  oriel-inspect diff old.oriel new.oriel --tolerance 0.02
+  oriel-inspect diff old.oriel new.oriel --tolerance 2%
                                                which rooms changed, as Markdown; exit code 5 beyond 2 %
   oriel-inspect extract house.oriel --kind lightmap -o maps
                                                maps/lightmap_000.exr holds irradiance in lux
@@ -69,6 +71,17 @@ ExportOptions with_coding(const Arguments& a) {
   return out;
 }
 
+// A share, or 0.
+OptionValue tolerance(double& out) {
+  return {"SHARE",
+          [&out](const std::string& typed) -> Status {
+            const auto share = typed == "0" ? Result<double>(0.0) : parse_share(typed);
+            if (share) out = *share;
+            return share ? Status() : tl::unexpected(share.error());
+          },
+          [&out] { return std::isinf(out) ? "" : share_text(out); }};
+}
+
 std::vector<ToolCommand> readers(Arguments& a) {
   return {
       command("info", "Show sections, sizes, maps, statistics and the options of the bake",
@@ -95,8 +108,9 @@ std::vector<ToolCommand> readers(Arguments& a) {
                {"AFTER", kArguments, "The one to compare with it", path(a.after, "PACK"), Use::kRequired},
                {"--json", kOptions, "Print JSON: all surfaces", flag(a.diff.json), Use::kEveryday},
                {"--tolerance", kOptions,
-                "Share of a surface's light that may change beyond noise, for instance 0.02: more is exit code 5",
-                number(a.diff.tolerance, 0, 1e6), Use::kEveryday},
+                "Share of light (by surface, by camera, in sum), of materials, lamps and cameras that may change "
+                "beyond noise, as 2%; 0: none. More, or another shape, is exit code 5",
+                tolerance(a.diff.tolerance), Use::kEveryday},
                {"--surfaces", kOptions, "How many surfaces to list, those that changed most first",
                 number(a.diff.surfaces, 0, 18446744073709551615.0), Use::kEveryday}},
               a, [](const Arguments& given) { return diff(given.pack, given.after, given.diff); })};

@@ -305,8 +305,8 @@ TEST(Quantities, ParseAndRefuse) {
   EXPECT_FALSE(parse_bytes("many"));
   EXPECT_EQ(*parse_color("5"), Vec3(5));
   EXPECT_EQ(*parse_color("1,2,3"), Vec3(1, 2, 3));
-  EXPECT_DOUBLE_EQ(*parse_fraction("0.5%"), 0.005);
-  for (const char* bad : {"", "0%", "-1%", "%", "nan%", "1x"}) EXPECT_FALSE(parse_fraction(bad)) << bad;
+  EXPECT_DOUBLE_EQ(*parse_share("0.5%"), 0.005);
+  for (const char* bad : {"", "0%", "-1%", "%", "nan%", "1x"}) EXPECT_FALSE(parse_share(bad)) << bad;
   EXPECT_EQ(parse_grid("a,b,1m,0")->node, "a,b");
   for (const char* bad : {"", "floor", "floor,1m", ",1m,1m", "floor,0m,1m", "floor,1m,-1m", "floor,1,1"})
     EXPECT_FALSE(parse_grid(bad)) << bad;

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "formats/analysis/pack_diff.h"
-#include "formats/analysis/texel_diff.h"
 
 namespace oriel {
 namespace {
@@ -62,7 +61,10 @@ TEST(PackDiff, OtherTexelSizesAreNoChange) {
   const Pack fine = lit_to(two_rooms(64, 0, 0, 0), 0.53f), coarse = lit_to(two_rooms(16, 0, 0, 0), 0.53f);
   const PackDiff same = diff_packs(fine, coarse);
   EXPECT_GT(same.surfaces[0].block_m, 0);
-  EXPECT_LT(same.largest(), 0.03) << "the mean of four texels";
+  const double by = same.surfaces[0].before_lux;
+  EXPECT_LT(std::max(same.surfaces[0].mean_change_lux, same.surfaces[0].rms_change_lux) / by, 0.03);
+  // Interpolation takes at most an eighth of a texel's light over a block's rim, of four texels.
+  EXPECT_LT(same.surfaces[0].p99_change_lux, 100.0 / 32);
   EXPECT_GT(diff_packs(fine, lit_to(two_rooms(16, 0, 0, 0), 0.7f)).largest(), 0.3) << "the light has moved";
   EXPECT_EQ(diff_packs(fine, fine).surfaces[0].block_m, 0);
 }
@@ -83,6 +85,96 @@ TEST(PackDiff, NoiseIsNoChange) {
   for (LightmapPage& page : after.lightmaps) page.standard_error.assign(page.standard_error.size(), Vec3(0));
   for (LightmapPage& page : before.lightmaps) page.standard_error.assign(page.standard_error.size(), Vec3(0));
   EXPECT_GT(diff_packs(before, after).largest(), 0.03) << "without a stated error it counts";
+}
+
+// Equal luminance, and so the light of what it falls on: only channels tell.
+TEST(PackDiff, RedThatBecameBlueIsAChange) {
+  Pack before = two_rooms(16, 100, 50, 0), after = before;
+  for (Vec3& lux : before.lightmaps[0].irradiance) lux = Vec3(100, 0, 0);
+  for (Vec3& lux : after.lightmaps[0].irradiance) lux = Vec3(0, 0, 100 * 0.2126f / 0.0722f);
+  before.materials[0].base_color = Vec3(0.6f, 0.1f, 0.1f);
+  after.materials[0].base_color = Vec3(0.1f, 0.1f, 0.6f);
+  const PackDiff diff = diff_packs(before, after);
+  EXPECT_NEAR(diff.surfaces[0].before_lux, diff.surfaces[0].after_lux, 1e-3);
+  EXPECT_NEAR(diff.surfaces[0].bias_lux.b, 100 * 0.2126 / 0.0722, 1e-2);
+  EXPECT_GT(diff.largest(), 1);
+  ASSERT_EQ(diff.assets.size(), 1u);
+  EXPECT_EQ(diff.assets[0].member, "base colour");
+  EXPECT_NEAR(diff.assets[0].change, 0.5 / 0.6, 1e-6);
+  EXPECT_FALSE(diff.within(0.5));
+}
+
+// Texels of 5 % noise hide it one by one, but not in their mean.
+TEST(PackDiff, ALampThatBecameBrighterIsSeenBelowTheNoise) {
+  const auto noisy = [](float scale, std::uint32_t seed) {
+    Pack pack = two_rooms(64, 100 * scale, 50 * scale, 0);
+    for (LightmapPage& page : pack.lightmaps)
+      for (std::size_t i = 0; i < page.irradiance.size(); ++i) {
+        const float error = 0.05f * page.irradiance[i].x;
+        page.irradiance[i] += Vec3((i * 2654435761u >> seed & 1) != 0 ? error : -error);
+        page.standard_error[i] = Vec3(error);
+      }
+    return pack;
+  };
+  EXPECT_FALSE(diff_packs(noisy(1, 7), noisy(1.02f, 13)).within(0.01));
+  EXPECT_TRUE(diff_packs(noisy(1, 7), noisy(1.02f, 13)).within(0.02));
+  EXPECT_TRUE(diff_packs(noisy(1, 7), noisy(1, 13)).within(0.005));
+}
+
+// Light of 100 lux more on a square of 1/16 of a surface.
+TEST(PackDiff, MeanRmsAndPercentileOfASpot) {
+  const Pack before = two_rooms(128, 100, 50, 0);
+  Pack after = before;
+  for (std::size_t y = 32; y < 64; ++y)
+    for (std::size_t x = 32; x < 64; ++x) after.lightmaps[0].irradiance[128 * y + x] += Vec3(100);
+  const PackDiff diff = diff_packs(before, after);
+  EXPECT_NEAR(diff.surfaces[0].mean_change_lux, 100.0 / 16, 0.2);
+  EXPECT_NEAR(diff.surfaces[0].rms_change_lux, 25, 0.7);
+  EXPECT_NEAR(diff.surfaces[0].p99_change_lux, 100, 0.1);
+  EXPECT_NEAR(diff.bias_lux, 100.0 / 32, 0.1);
+}
+
+TEST(PackDiff, WhatCamerasSee) {
+  Pack before = two_rooms(8, 100, 50, 0);
+  before.cameras.push_back({"in the hall", Vec3(1, 1, 1), Vec3(0, -1, 0), Vec3(0, 0, -1), 0.5f});
+  const PackDiff diff = diff_packs(before, [&] {
+    Pack after = before;
+    after.lightmaps[0].irradiance.assign(64, Vec3(110));
+    return after;
+  }());
+  ASSERT_EQ(diff.cameras.size(), 1u);
+  EXPECT_NEAR(diff.cameras[0].before_lux, 100, 1e-3);
+  EXPECT_NEAR(diff.cameras[0].mean_change_lux, 10, 1e-3);
+  EXPECT_NEAR(diff.share(diff.cameras[0]), 10.0 / 110, 1e-5);
+}
+
+TEST(PackDiff, MaterialsLampsShapesAndCameras) {
+  Pack before = two_rooms(8, 100, 50, 0);
+  before.cameras.push_back({"door"});
+  before.sharp_light.lamps.push_back({.intensity = Vec3(100)});
+  before.mesh.parts[1].lightmap_page = -1;
+  const auto only_change = [&](const char* asset, const char* member, double change, const auto& edit) {
+    Pack after = before;
+    edit(after);
+    const auto found = diff_assets(before, after);
+    ASSERT_EQ(found.size(), 1u) << asset;
+    EXPECT_EQ(found[0].asset, asset);
+    EXPECT_EQ(found[0].member, member);
+    EXPECT_NEAR(found[0].change, change, 1e-6) << asset;
+    EXPECT_FALSE(diff_packs(before, after).within(0.9 * change));
+  };
+  only_change("material 'plaster'", "roughness", 0.2, [](Pack& p) { p.materials[0].roughness = 0.8f; });
+  only_change("material 'plaster'", "emission", 1, [](Pack& p) { p.materials[0].emission = Vec3(3); });
+  only_change("material 'plaster'", "double-sided", 1, [](Pack& p) { p.materials[0].double_sided = true; });
+  only_change("material 'glue'", "added", 1, [](Pack& p) { p.materials.push_back({.name = "glue"}); });
+  only_change("lamp '0'", "intensity", 0.02 / 1.02, [](Pack& p) { p.sharp_light.lamps[0].intensity *= 1.02f; });
+  only_change("light 'sky'", "radiance", 1, [](Pack& p) { p.sky = Vec3(1); });
+  only_change("unlit surface 'study'", "upper", 1.0 / 13, [](Pack& p) {
+    for (std::size_t i = 4; i < 8; ++i) p.mesh.positions[i].x += i == 5 || i == 6 ? 1.0f : 0.0f;
+  });
+  only_change("camera 'door'", "eye", 1, [](Pack& p) { p.cameras[0].eye.x = 2; });
+  only_change("camera 'door'", "gone", 1, [](Pack& p) { p.cameras.clear(); });
+  EXPECT_TRUE(diff_packs(before, before).within(0));
 }
 
 TEST(PackDiff, SurfacesThatCameWentOrMoved) {
@@ -130,43 +222,6 @@ TEST(PackDiff, EmptyAndDegeneratePacks) {
   const Pack black = two_rooms(4, 0, 0, 0);
   EXPECT_EQ(diff_packs(black, black).largest(), 0);
   EXPECT_GT(diff_packs(black, two_rooms(4, 1, 0, 0)).largest(), 0.99);
-}
-
-// The bright room is 10 % off, the dark one, of a tenth of the mean, by half of its light; both states 3 lux of error.
-TEST(TexelDiff, RelativeErrorsOverBothRooms) {
-  const auto off = [](double share, double lux, double mean) { return share * lux / std::hypot(lux, 0.01 * mean); };
-  const auto diff = diff_texels(two_rooms(10, 100, 5, 0), two_rooms(10, 110, 7.5f, 3));
-  ASSERT_TRUE(diff);
-  EXPECT_EQ(diff->texels, 200u);
-  EXPECT_NEAR(diff->mean_lux, 52.5, 1e-4);
-  EXPECT_NEAR(diff->bias, 58.75 / 52.5 - 1, 1e-6);
-  const double bright = off(0.1, 100, 52.5), dark = off(0.5, 5, 52.5);
-  EXPECT_NEAR(diff->difference, std::sqrt((bright * bright + dark * dark) / 2), 1e-5);
-  EXPECT_EQ(diff->noise, 0);
-  EXPECT_NEAR(diff->net, diff->difference, 1e-9);
-  EXPECT_NEAR(diff->stated, std::sqrt((std::pow(off(0.03, 100, 52.5), 2) + std::pow(off(0.6, 5, 52.5), 2)) / 2), 1e-5);
-  // Two of 200 texels go, of the dark room.
-  EXPECT_NEAR(diff->net_without_worst, std::sqrt((100 * bright * bright + 98 * dark * dark) / 198), 1e-5);
-  EXPECT_LT(diff->net_of_brighter, diff->net);
-}
-
-TEST(TexelDiff, TheReferencesNoiseIsTakenOff) {
-  const auto diff = diff_texels(two_rooms(10, 100, 100, 6), two_rooms(10, 110, 110, 0));
-  ASSERT_TRUE(diff);
-  EXPECT_NEAR(diff->net, 0.08 / std::hypot(1, 0.01), 1e-6);
-  EXPECT_EQ(diff_texels(two_rooms(10, 100, 100, 60), two_rooms(10, 110, 110, 0))->net, 0);
-}
-
-TEST(TexelDiff, AnotherAtlasNoTexelOrNoLight) {
-  EXPECT_FALSE(diff_texels(two_rooms(10, 100, 100, 0), two_rooms(11, 100, 100, 0)));
-  Pack moved = two_rooms(10, 100, 100, 0);
-  moved.mesh.lightmap_uvs[0].x = 0.5f;
-  EXPECT_FALSE(diff_texels(two_rooms(10, 100, 100, 0), moved));
-  EXPECT_FALSE(diff_texels(Pack(), Pack()));
-  EXPECT_FALSE(diff_texels(two_rooms(10, 0, 0, 0), two_rooms(10, 1, 1, 0))) << "nothing to be relative to";
-  const auto dark = diff_texels(two_rooms(10, 0, 0, 0), two_rooms(10, 0, 0, 0));
-  ASSERT_TRUE(dark);
-  EXPECT_EQ(dark->net, 0);
 }
 
 }  // namespace

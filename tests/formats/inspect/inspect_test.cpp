@@ -122,7 +122,7 @@ TEST_F(Inspect, InfoForPrograms) {
   const Outcome info = run("info --json " + pack_.string());
   ASSERT_EQ(info.code, 0) << info.err;
   const auto json = Json::parse(info.out).value();
-  EXPECT_EQ(json["schema"], 1);
+  EXPECT_EQ(json["schema"], 2);
   EXPECT_EQ(json["mesh"]["triangles"], 4);
   EXPECT_EQ(json["provenance"]["seed"], 7);
   EXPECT_EQ(json["lightmaps"][0]["texels"]["valid"], 8);

@@ -1,0 +1,147 @@
+#include "formats/analysis/asset_diff.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/core/hash.h"
+#include "formats/core/json.h"
+
+namespace oriel {
+namespace {
+
+Json numbers_of(const Vec3& v) {
+  return std::array{v.x, v.y, v.z};
+}
+
+// Assets by name, each with its members.
+class AssetList {
+ public:
+  void add(const char* kind, const std::string& name, Json members) {
+    std::string key = fmt::format("{} '{}'", kind, name);
+    for (int n = 2; all.contains(key); ++n) key = fmt::format("{} '{}' ({})", kind, name, n);
+    all[key] = std::move(members);
+  }
+  Json all = Json::object();
+};
+
+Json texels_of(const std::vector<Texture>& textures, std::int32_t index) {
+  if (index < 0) return {};
+  const Texture& t = textures[static_cast<std::size_t>(index)];
+  return fmt::format("{} x {}: {}", t.width, t.height, hash128_hex(std::as_bytes(std::span(t.texels))));
+}
+
+void add_materials(const Pack& pack, AssetList& list) {
+  for (const Material& m : pack.materials)
+    list.add("material", m.name,
+             {{"base colour", numbers_of(m.base_color)},
+              {"texture", texels_of(pack.textures, m.base_color_texture)},
+              {"normal map", texels_of(pack.normal_textures, m.normal_texture)},
+              {"alpha", {m.alpha, m.alpha_cutoff, static_cast<int>(m.alpha_mode)}},
+              {"normal scale", m.normal_scale},
+              {"double-sided", m.double_sided},
+              {"unlit", m.unlit},
+              {"metallic", m.metallic},
+              {"roughness", m.roughness},
+              {"index of refraction", m.ior},
+              {"reflectance", numbers_of(m.f0)},
+              {"transmission", m.transmission},
+              {"emission", m.unlit ? Json() : numbers_of(m.emission)}});  // an unlit one's follows from its light
+  for (const SolidGlass& s : pack.solids)
+    list.add("glass", pack.materials[s.material].name,
+             {{"tint", numbers_of(s.tint)}, {"absorption", numbers_of(s.absorption)}});
+  for (const EmissionTexture& e : pack.emission_textures)
+    list.add("picture", pack.materials[e.material].name,
+             {{"texture", texels_of(pack.textures, static_cast<int>(e.texture))}});
+}
+
+void add_lamps(const Pack& pack, AssetList& list) {
+  list.add("light", "sky", {{"radiance", numbers_of(pack.sky)}});
+  for (std::size_t i = 0; const SharpLamp& l : pack.sharp_light.lamps)
+    list.add("lamp", std::to_string(i++),
+             {{"position", numbers_of(l.position)},
+              {"direction", numbers_of(l.direction)},
+              {"intensity", numbers_of(l.intensity)},
+              {"cone", {l.cos_outer, l.inverse_falloff, l.angular_radius_rad}}});
+  for (const LightGroup& g : pack.light_groups)
+    list.add("light group", g.name, {{"lamps", g.lamps}, {"value", g.value}, {"colour", numbers_of(g.color)}});
+}
+
+// Of what no light tells: surfaces without, and movers.
+void add_shapes(const Pack& pack, AssetList& list) {
+  const auto add = [&](const char* kind, const std::string& name, const Mesh& mesh, const MeshPart& part) {
+    Vec3 lower(std::numeric_limits<float>::max()), upper(-lower);
+    for (std::uint32_t i = 0; i < part.index_count; ++i) {
+      const Vec3& corner = mesh.positions[mesh.indices[part.first_index + i]];
+      lower = glm::min(lower, corner), upper = glm::max(upper, corner);
+    }
+    list.add(kind, name,
+             {{"triangles", part.index_count / 3}, {"lower", numbers_of(lower)}, {"upper", numbers_of(upper)}});
+  };
+  for (const MeshPart& part : pack.mesh.parts)
+    if (part.lightmap_page < 0) add("unlit surface", part.name, pack.mesh, part);
+  for (const Mover& mover : pack.movers)
+    for (const MeshPart& part : mover.mesh.parts) add("mover", mover.name, mover.mesh, part);
+}
+
+void add_cameras(const Pack& pack, AssetList& list) {
+  for (const Camera& c : pack.cameras)
+    list.add("camera", c.name,
+             {{"eye", numbers_of(c.eye)},
+              {"forward", numbers_of(c.forward)},
+              {"up", numbers_of(c.up)},
+              {"field of view", {c.vertical_fov_rad, c.half_height}}});
+  for (const CameraPath& p : pack.paths) {
+    Json keys = Json::array();
+    for (const CameraKey& k : p.keys) keys.push_back({k.time_s, numbers_of(k.eye), numbers_of(k.forward)});
+    list.add("path", p.name, {{"field of view", p.vertical_fov_rad}, {"keys", keys}});
+  }
+}
+
+Json assets_of(const Pack& pack) {
+  AssetList list;
+  add_materials(pack, list);
+  add_lamps(pack, list);
+  add_shapes(pack, list);
+  add_cameras(pack, list);
+  return std::move(list.all);
+}
+
+void append_numbers(const Json& json, std::vector<double>& numbers) {
+  if (json.is_number()) numbers.push_back(json.get<double>());
+  for (const Json& one : json) append_numbers(one, numbers);
+}
+
+double change_between(const Json& before, const Json& after) {
+  std::vector<double> a, b;
+  append_numbers(before, a), append_numbers(after, b);
+  if (a.size() != b.size() || a.empty()) return 1;
+  double off = 0, largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    off = std::max(off, std::fabs(a[i] - b[i]));
+    largest = std::max({largest, std::fabs(a[i]), std::fabs(b[i])});
+  }
+  return off / largest;
+}
+
+}  // namespace
+
+std::vector<AssetChange> diff_assets(const Pack& before, const Pack& after) {
+  const Json a = assets_of(before), b = assets_of(after);
+  std::vector<AssetChange> changes;
+  for (const auto& [name, members] : a.items()) {
+    const Json* other = b.find(name);
+    if (other == nullptr) {
+      changes.push_back({name, "gone", members.dump(), ""});
+      continue;
+    }
+    for (const auto& [member, value] : members.items())
+      if (const Json& now = (*other)[member]; now != value)
+        changes.push_back({name, member, value.dump(), now.dump(), change_between(value, now)});
+  }
+  for (const auto& [name, members] : b.items())
+    if (!a.contains(name)) changes.push_back({name, "added", "", members.dump()});
+  std::ranges::stable_sort(changes, std::ranges::greater(), &AssetChange::change);
+  return changes;
+}
+
+}  // namespace oriel
