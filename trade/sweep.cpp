@@ -106,7 +106,7 @@ class Sweep {
       if (!measured) {
         if (measured.error().code == ErrorCode::kIo) return measured;
         row.failure = measured.error().text();
-        context_.warning(configuration.name() + ": " + row.failure);
+        context_.warning("trade-incomplete", configuration.name() + ": " + row.failure);
       }
       trade_.rows.push_back(std::move(row));
     }
@@ -123,9 +123,9 @@ class Sweep {
   Result<Measures> bake(const std::string& key, const Settings& settings, std::uint64_t seed,
                         const std::string& reference) {
     const fs::path report = store_.file(key, ".report");
-    Arguments arguments{bake_program(),      o_.scene.string(),  "-o",         pack(key).string(), "--report",
-                        report.string(),     "--accept-partial", "--no-cache", "--quiet",          "--seed",
-                        std::to_string(seed)};
+    Arguments arguments{
+        bake_program(), o_.scene.string(), "-o",  pack(key).string(), "--report", report.string(),     "--require",
+        "nothing",      "--cache",         "off", "--quiet",          "--seed",   std::to_string(seed)};
     append(arguments, settings);
     arguments.insert(arguments.end(), o_.forwarded.begin(), o_.forwarded.end());
     ORIEL_TRY(const Finished finished, run_program(arguments, log(key), context_.stop));
@@ -164,7 +164,7 @@ class Sweep {
     const Result<Measures> played = play(row, key);
     if (!played && c.knob == "default") {
       trade_.frames = false;
-      context_.warning("frames are left out: " + played.error().text());
+      context_.warning("trade-incomplete", "frames are left out: " + played.error().text());
       return {};
     }
     if (!played) return tl::unexpected<Error>(played.error());
@@ -360,7 +360,8 @@ Result<Trade> sweep(const TradeOptions& options, Context& context, const Units::
   if (player) programs.push_back(options.programs / "oriel-play");
   if (fs::exists(options.programs / "oriel-preview", error)) programs.push_back(options.programs / "oriel-preview");
   if (!player)
-    context.warning(fmt::format("frames are left out: there is no oriel-play in {}", options.programs.string()));
+    context.warning("trade-incomplete",
+                    fmt::format("frames are left out: there is no oriel-play in {}", options.programs.string()));
   ORIEL_TRY(const std::string inputs, hash_of(options.scene, options.forwarded, programs));
   const Store store(runs, inputs);
   Units units(store, context, note, options.time_s);

@@ -115,10 +115,10 @@ Status place_automatic(const ChartedSurfaces& charted, const AtlasOptions& optio
   if (context.stopped()) return fail(ErrorCode::kStopped, "atlas", "stopped");
   atlas.report.time_limit_struck = deadline.struck();
   if (deadline.struck())
-    context.warning(
-        fmt::format("atlas: the limit of {} s was reached; the charts left then are plain projections, and "
-                    "another run may give others",
-                    options.time_limit_s));
+    context.warning("plain-charts",
+                    fmt::format("atlas: the limit of {} s was reached; the charts left then are plain projections, and "
+                                "another run may give others",
+                                options.time_limit_s));
   LayoutOptions layout;
   layout.side = static_cast<std::uint32_t>(one_page ? options.resolution : options.max_page / 4 * 4);
   layout.padding = static_cast<std::uint32_t>(options.padding);

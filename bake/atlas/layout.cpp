@@ -249,7 +249,8 @@ void Layout::fit_limits() {
   const auto fit = [&](double most, const std::string& why) {
     const std::size_t larger = coarsen(own, [&] { return kMargins * least_texels(texel_m_) > most; });
     if (larger > 0)
-      context_.warning(fmt::format("atlas: texels of {:.3g} m {}: {} of {} charts, those seen least, get larger ones",
+      context_.warning("coarser-texels",
+                       fmt::format("atlas: texels of {:.3g} m {}: {} of {} charts, those seen least, get larger ones",
                                    texel_m_, why, larger, charts_.size()));
   };
   if (options_.memory_bytes > 0)
@@ -327,9 +328,11 @@ void Layout::warn_coarsened() const {
     worst = std::max(worst, texel);
   }
   if (count > 0)
-    context_.warning(fmt::format(
-        "atlas: {} of {} charts are longer than a page of {} texels at {:.4g} m a texel; theirs are up to {:.4g} m",
-        count, charts_.size(), options_.side, texel_m_, worst));
+    context_.warning(
+        "coarser-texels",
+        fmt::format(
+            "atlas: {} of {} charts are longer than a page of {} texels at {:.4g} m a texel; theirs are up to {:.4g} m",
+            count, charts_.size(), options_.side, texel_m_, worst));
 }
 
 void Layout::write(Atlas& atlas) const {

@@ -61,7 +61,8 @@ Status check_area(const Scene& scene, const Surface& surface, const Atlas& atlas
     return invalid(name_of(surface),
                    "{} of {} triangles ({:.3g} m²) have no area in TEXCOORD_1; expected a place of its own for each",
                    count, surface.triangle_count, lost);
-  context.warning(fmt::format("{}: {} slivers ({:.3g} m²) have no area in TEXCOORD_1; they show the nearest texel",
+  context.warning("missing-texcoords",
+                  fmt::format("{}: {} slivers ({:.3g} m²) have no area in TEXCOORD_1; they show the nearest texel",
                               name_of(surface), count, lost));
   return {};
 }

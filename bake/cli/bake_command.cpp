@@ -5,6 +5,8 @@
 #include "bake/cli/cache_options.h"
 #include "bake/cli/commands.h"
 #include "bake/cli/outcome.h"
+#include "bake/cli/requirements.h"
+#include "bake/cli/up_to_date.h"
 #include "bake/run/option_table.h"
 #include "formats/core/file.h"
 #include "formats/pack/writer.h"
@@ -25,18 +27,17 @@ constexpr const char* kBakeFooter = R"(Examples:
   oriel-bake house.glb -o house.oriel --only radiosity     no radiance maps: a small pack without mirror images
   oriel-bake plan house.glb                                what that would do and cost, and what looks wrong
 
-Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time, 5 findings with --strict
-or other bytes with verify, 6 the pack was written, but is less than what was asked for: the bake ended early, missed an --error
-or a --time that was named, left out a stage for want of time (0 with --accept-partial), or a part that failed its checks;
+Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time, 5 other bytes
+with verify, 6 the pack is less than what was asked for: the bake ended early, missed an --error or a --time that was named,
+left out a stage for want of time (0 with --require nothing), or a part that failed its checks; 7 it misses --require or -W;
 130 stopped by the user before there was a first estimate, or by a second interrupt (nothing half-written is left).)";
 
 struct BakeArguments {
   BakeOptions bake = command_line_defaults();
-  std::filesystem::path cache;
-  bool no_cache = false;
+  std::string cache;             // "off": none
   std::filesystem::path report;  // empty: none
-  bool strict = false;           // findings are an exit code
-  bool accept_partial = false;   // what is less than asked for is none
+  Requirements required;
+  std::string keep;  // a pack that misses them: "partial", "none"; empty: partial where none are given
 };
 
 // Of the lightmap beside unbiased paths.
@@ -45,13 +46,6 @@ std::string brightness_text(const HeldOutError& c) {
     return fmt::format("as bright on the mean as unbiased paths, to {:.2g} %", 100 * c.bias_interval);
   return fmt::format("on the mean {:.2g} ± {:.2g} % {} than unbiased paths", 100 * std::fabs(c.bias),
                      100 * c.bias_interval, c.bias > 0 ? "brighter" : "darker");
-}
-
-// A measurement that cannot be told from its own noise is a bound.
-std::string measured_text(const HeldOutError& c) {
-  if (c.error_low <= 0)
-    return fmt::format("at most {:.2g} % (less is hidden by the noise of its paths)", 100 * c.error_high);
-  return fmt::format("{:.2g} % ({:.2g} to {:.2g} %)", 100 * c.relative_error, 100 * c.error_low, 100 * c.error_high);
 }
 
 std::string light_line(const RadiosityReport& r) {
@@ -84,7 +78,7 @@ void print_omissions(const std::vector<Warning>& omissions, BakeSession& session
   std::vector<std::string> lines;
   std::size_t matte = 0;
   for (const Warning& omission : omissions)
-    if (omission.kind == WarningKind::kNoImage)
+    if (omission.code == "no-image")
       ++matte;
     else
       lines.push_back(omission.text);
@@ -116,16 +110,13 @@ Status write_result(const BakeArguments& args, const BakeResult& result, BakeSes
   return {};
 }
 
-// What the pack that was written is an error for, if anything.
-Status judge_result(const BakeArguments& args, const BakeResult& result) {
-  const std::string output = args.bake.output.string();
-  if (!result.left_out.empty()) return fail(kIncomplete, output, "was written without {}", result.left_out[0]);
-  if (!args.accept_partial && !result.shortfalls.empty())
-    return fail(kIncomplete, output, "was written, but is less than what was asked for: {} (--accept-partial takes it)",
-                result.shortfalls[0]);
-  if (args.strict && !result.findings.empty())
-    return fail(ErrorCode::kDifferent, output, "was written; --strict: {}", result.findings[0]);
-  return {};
+// What its requirements, and how it ended, are to who asks whether it has to be baked again.
+void record_verdict(const std::vector<std::string>& met, BakeResult& result) {
+  if (met.empty() && result.shortfalls.empty()) return;
+  Json plan = Json::parse(result.pack.plan).value();
+  if (!result.shortfalls.empty()) plan["shortfalls"] = texts_of(result.shortfalls);
+  if (!met.empty()) plan["met"] = met;
+  result.pack.plan = plan.dump(2);
 }
 
 // Before anything else: that it will be there is the point of a report.
@@ -142,16 +133,46 @@ Status begin_report(const BakeArguments& args) {
   return write_text_atomically(args.report, outcome_json({}, args.bake.scene, args.bake.output));
 }
 
-Status make_pack(const BakeArguments& args, BakeSession& session, std::optional<BakeResult>& made) {
+// Where the pack is there already.
+Result<std::optional<BakeResult>> find_made(const BakeArguments& args, const std::vector<std::string>& met,
+                                            BakeSession& session) {
+  std::error_code ec;
+  if (args.cache == "off" || !std::filesystem::exists(args.bake.output, ec)) return std::nullopt;
+  const auto records = read_records(args.bake.output);
+  const auto wanted = records ? wanted_provenance(args.bake, session.context) : tl::unexpected(records.error());
+  if (!wanted || !is_up_to_date(*records, *wanted, met)) return std::nullopt;
+  std::filesystem::last_write_time(args.bake.output, std::filesystem::file_time_type::clock::now(), ec);
+  session.note(fmt::format("{} is up to date: nothing is baked (--cache off bakes)", args.bake.output.string()));
+  BakeResult result;
+  result.pack.provenance = records->provenance.dump();
+  result.pack.plan = records->plan.dump();
+  return result;
+}
+
+Status make_pack(const BakeArguments& args, BakeSession& session, std::optional<BakeResult>& made, bool& written) {
   ORIEL_TRY_VOID(check_output(args.bake.output, inputs_of(args.bake.scene, args.bake.import)));
-  const auto cache = args.no_cache ? nullptr : open_cache(args.cache, args.bake, session.context);
+  std::vector<std::string> met = args.required.given;
+  met.insert(met.end(), session.errors.begin(), session.errors.end());
+  ORIEL_TRY(made, find_made(args, met, session));
+  written = made.has_value();
+  if (written) return {};
+  const auto cache = args.cache == "off" ? nullptr : open_cache(args.cache, args.bake, session.context);
   session.context.units = cache.get();
-  ORIEL_TRY(BakeResult result, bake(args.bake, session.context));
-  if (cache) print_share(result.units, cache->folder(), session);
-  print_result(result, session);
-  const Status written = write_result(args, result, session);
-  if (written) made = std::move(result);
-  return written;
+  ORIEL_TRY(made, bake(args.bake, session.context));
+  ORIEL_TRY_VOID(session.judged({}));
+  if (cache) print_share(made->units, cache->folder(), session);
+  print_result(*made, session);
+  Status verdict = judge(args.required, *made, session);
+  written = verdict || args.keep == "partial" || (args.keep.empty() && met.empty());
+  if (written) {
+    record_verdict(verdict ? met : std::vector<std::string>(), *made);
+    ORIEL_TRY_VOID(write_result(args, *made, session));
+  }
+  if (!verdict)
+    return fail(verdict.error().code, args.bake.output.string(), "{} {}",
+                written ? "was written, but" : "was not written (--keep partial keeps it): the pack",
+                verdict.error().message);
+  return {};
 }
 
 Outcome::Kind kind_of(const Status& status, bool written, const BakeResult* result) {
@@ -162,22 +183,23 @@ Outcome::Kind kind_of(const Status& status, bool written, const BakeResult* resu
 
 Status run_bake(const BakeArguments& args, BakeSession& session) {
   stop_on_signals(session.context, args.bake.output, OnStop::kFinish);
+  ORIEL_TRY(const OutputLock lock, OutputLock::take(args.bake.output));
   ORIEL_TRY_VOID(begin_report(args));
   Outcome outcome;
   std::optional<WarningLog> log(std::in_place, session.context, outcome.warnings);
   std::optional<BakeResult> made;
+  bool written = false;
   Status status;
   try {
-    status = make_pack(args, session, made);
+    status = session.judged(make_pack(args, session, made, written));
   } catch (const std::bad_alloc&) {
     status = fail(ErrorCode::kRuntime, "", "not enough memory: try {}", session.less_memory);
   } catch (const std::exception& error) {
     status = fail(ErrorCode::kRuntime, "", "{}", error.what());
   }
   log.reset();
-  if (status) status = judge_result(args, *made);
   if (args.report.empty()) return status;
-  outcome.kind = kind_of(status, made.has_value(), made ? &*made : nullptr);
+  outcome.kind = kind_of(status, written, made ? &*made : nullptr);
   outcome.exit_code = status ? 0 : static_cast<int>(status.error().code);
   if (!status) outcome.error = status.error();
   if (made) outcome.warnings = made->warnings, outcome.result = &*made;
@@ -198,22 +220,20 @@ ToolCommand bake_command(BakeSession& session) {
       out.options,
       {{"--cache", "Run",
         "Folder of finished units of work: a bake that was killed, or is repeated after a change, computes only what "
-        "is not there. Default: .oriel-cache beside the pack",
-        path(args->cache, "DIR"), Use::kEveryday, "", "pipelines.md#the-cache"},
-       {"--no-cache", "Run", "Compute everything, and keep nothing but the pack", flag(args->no_cache), Use::kRare, "",
-        "", "--cache"},
+        "is not there; off: computes everything, and keeps nothing but the pack. Default: .oriel-cache beside the pack",
+        text(args->cache, "DIR|off"), Use::kEveryday, "", "pipelines.md#the-cache"},
        {"--report", "Run",
         "Write how it ended, what was done, omitted and measured, and how long it took, as JSON "
         "(docs/report.schema.json). It is there on failure too",
         path(args->report, "FILE"), Use::kEveryday},
-       {"--strict", "Run",
-        "Exit code 5 where something is found to be likely wrong with the light, such as an energy ledger that does "
-        "not close. The pack is written all the same",
-        flag(args->strict)}});
-  append(out.options, {{"--accept-partial", "Run",
-                        "Exit code 0 where the pack is less than what was asked for: the bake ended early, missed an "
-                        "--error or a --time that was named, or left out a stage for want of time",
-                        flag(args->accept_partial)}});
+       {"--require", "Run",
+        "What the pack must be, or exit code 7, comma-separated: error<=SHARE, light, textures, reflections, sound (no "
+        "findings such as an energy ledger that does not close). nothing: exit code 0, too, where it is less than what "
+        "was asked for",
+        requirements(args->required, session), Use::kRare, "", "pipelines.md#exit-codes"},
+       {"--keep", "Run",
+        "Whether a pack that misses what was asked for is written. Default: none with --require or -W, else partial",
+        one_of(args->keep, {"partial", "none"})}});
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };
   out.run = [args, &session] { return run_bake(*args, session); };

@@ -10,6 +10,7 @@ ToolCommand plan_command(BakeSession& session);
 ToolCommand worker_command(BakeSession& session);
 ToolCommand verify_command(BakeSession& session);
 ToolCommand submit_command(BakeSession& session);
+ToolCommand key_command(BakeSession& session);
 ToolCommand cache_command(BakeSession& session);
 ToolCommand lux_command(BakeSession& session);
 ToolCommand render_command(BakeSession& session);

@@ -1,8 +1,9 @@
-// Commands for bakes that machines share: worker and verify.
+// Commands for bakes that machines share: worker, verify and key.
 #include <random>
 
 #include "bake/cli/cache_options.h"
 #include "bake/cli/commands.h"
+#include "bake/cli/up_to_date.h"
 #include "bake/jobs/checking_store.h"
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
@@ -42,18 +43,51 @@ Status run_verify(const FarmArguments& args, BakeSession& session) {
   const auto cache = open_cache(args.cache, args.bake, session.context);
   CheckingStore checking(*cache, args.sample, std::random_device()());
   session.context.units = &checking;
-  ORIEL_TRY(const BakeResult again, bake(args.bake, session.context));
+  ORIEL_TRY(BakeResult again, bake(args.bake, session.context));
   session.note(fmt::format("{} of {} units were found in {}; {} that are there were computed again: {} differ",
                            again.units.reused - checking.checked(), again.units.units(), cache->folder().string(),
                            checking.checked(), checking.differing()));
-  if (before.provenance != again.pack.provenance)
-    return fail(ErrorCode::kDifferent, pack.string(),
-                "was baked of other files, with other options or by another version: see oriel-inspect info");
+  const std::string difference = provenance_difference(Json::parse(before.provenance).value_or(Json()),
+                                                       Json::parse(again.pack.provenance).value());
+  if (!difference.empty())
+    return fail(ErrorCode::kDifferent, pack.string(), "differs from that bake in {}", difference);
+  again.pack.provenance = before.provenance;
+  Json plan = Json::parse(before.plan).value(), plan_now = Json::parse(again.pack.plan).value();
+  // What was asked of the bake is none of its result, nor is what was told of options, by who gave them.
+  for (const char* told : {"met", "shortfalls", "warnings"}) plan.erase(told), plan_now.erase(told);
+  again.pack.plan = before.plan;
   ORIEL_TRY(const Bytes bytes, encode_pack(again.pack));
-  if (checking.differing() > 0 || bytes != written)
+  if (checking.differing() > 0 || plan != plan_now || bytes != written)
     return fail(ErrorCode::kDifferent, pack.string(),
                 "found other bytes than a bake of {} gives now, expected the same", args.bake.scene.string());
   return print("the same\n");
+}
+
+// Sets the options that the pack was baked with, but those that are given.
+Status take_options(const PackRecords& pack, FarmArguments& args, BakeSession& session, Given& given) {
+  const Json& words = pack.provenance["given"];
+  std::map<std::string, Given::Texts> found;
+  const auto options = bake_options(args.bake);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string name = words[i].get<std::string>();
+    const auto option = std::ranges::find(options, name, long_name);
+    if (option == options.end()) return fail(ErrorCode::kInvalid, name, "is no option of this version");
+    const std::string text = option->value.type.empty() ? "" : words.at(++i).get<std::string>();
+    if (given.has(name)) continue;
+    ORIEL_TRY_VOID(option->value.set(text));
+    found[name].texts.push_back(text);
+  }
+  for (auto& [name, texts] : found) given.add(name, {Source::kPreset, std::move(texts.texts)});
+  if (!given.has("--seed")) session.seed = pack.provenance["options"].value("seed", session.seed);
+  return {};
+}
+
+// The hash of all that a bake's result follows from.
+Status print_key(const FarmArguments& args, BakeSession& session) {
+  ORIEL_TRY(Json wanted, wanted_provenance(args.bake, session.context));
+  wanted.erase("given");  // other words for the same options
+  const std::string text = wanted.dump();
+  return print(hash128_hex(std::as_bytes(std::span(text))) + "\n");
 }
 
 }  // namespace
@@ -90,7 +124,7 @@ ToolCommand verify_command(BakeSession& session) {
       .name = "verify",
       .help = "Tells whether a pack is what a bake of the scene gives: bakes again out of the cache, a sample anew",
       .footer =
-          "Takes the options that the pack was baked with. Exit code 0: the same bytes; 5: others.\n"
+          "Bakes with the pack's own options, and those that are given. Exit code 0: the same bytes; 5: others.\n"
           "Without a cache everything is computed.",
       .options = {
           {"PACK", "Arguments", "The pack", path(args->bake.output, "PACK"), Use::kRequired},
@@ -101,8 +135,24 @@ ToolCommand verify_command(BakeSession& session) {
            quantity(args->sample, "SHARE", parse_share, share_text), Use::kEveryday}}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
-  out.settle = [args](const Given& given) { return settle(args->bake, given); };
+  out.settle = [args, &session](Given given) -> Status {
+    if (const auto pack = read_records(args->bake.output)) ORIEL_TRY_VOID(take_options(*pack, *args, session, given));
+    return settle(args->bake, given);
+  };
   out.run = [args, &session] { return run_verify(*args, session); };
+  return out;
+}
+
+ToolCommand key_command(BakeSession& session) {
+  const auto args = std::make_shared<FarmArguments>();
+  ToolCommand out{.name = "key",
+                  .help = "Prints the hash of all that a bake would follow from: files, options, seed, program",
+                  .footer = "The same key, the same pack: a build system need not bake again.",
+                  .options = {scene_argument(args->bake.scene)}};
+  append(out.options, bake_options(args->bake));
+  append(out.options, run_options(session));
+  out.settle = [args](const Given& given) { return settle(args->bake, given); };
+  out.run = [args, &session] { return print_key(*args, session); };
   return out;
 }
 

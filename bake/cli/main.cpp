@@ -6,16 +6,22 @@
 #include <string_view>
 
 #include "bake/cli/commands.h"
+#include "bake/jobs/unit_cache.h"
 #include "bake/run/version.h"
 #include "formats/core/json.h"
 
 namespace oriel {
+
+extern const char* const kCommit;  // written by the build: kCommitMark and 12 digits
+
 namespace {
 
 CommandLine command_line(BakeSession& session) {
-  CommandLine out{kVersion, bake_command(session)};
+  const std::string version = fmt::format("{} (commit {}, build {}, {})", kVersion, kCommit + kCommitMark.size(),
+                                          build_id(), instruction_sets(false));
+  CommandLine out{version, bake_command(session)};
   for (const auto make : {plan_command, lux_command, render_command, preview_command, trade_command, worker_command,
-                          submit_command, verify_command, cache_command})
+                          submit_command, verify_command, key_command, cache_command})
     out.command.commands.push_back(make(session));
   return out;
 }
@@ -58,7 +64,7 @@ int main_of_bake(int argc, char** argv) {
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   session.begin();
   stop_on_signals(session.context, {}, OnStop::kStop);
-  const Status status = run(*std::get<const ToolCommand*>(parsed), session);
+  const Status status = session.judged(run(*std::get<const ToolCommand*>(parsed), session));
   ::alarm(0);
   return status ? 0 : print_error(status.error(), session);
 }

@@ -38,7 +38,8 @@ Json records(const std::vector<Warning>& warnings, const char* kind, const char*
     const std::string object = object_of(text);
     const auto node = paths.find(object);
     const bool of_import = known.kind != FindingKind::kImport;
-    out.push_back({{"kind", of_import ? name_of(known.kind) : kind},
+    out.push_back({{"id", warning.code.name()},
+                   {"kind", of_import ? name_of(known.kind) : kind},
                    {"severity", severity},
                    {"object", object},
                    {"node", node == paths.end() ? std::string() : node->second},
@@ -101,9 +102,9 @@ std::string outcome_json(const Outcome& o, const std::filesystem::path& scene, c
                {"findings", Json::array()}, {"shortfalls", Json::array()}};
   if (o.kind == Outcome::Kind::kRunning) json["running"] = running_json();
   if (o.result != nullptr) {
-    std::vector<Warning> missing(o.result->shortfalls.begin(), o.result->shortfalls.end());
-    missing.insert(missing.end(), o.result->left_out.begin(), o.result->left_out.end());
-    json["findings"] = records({o.result->findings.begin(), o.result->findings.end()}, "light", "error", paths);
+    std::vector<Warning> missing = o.result->shortfalls;
+    for (const std::string& text : o.result->left_out) missing.push_back({text, "failed-checks"});
+    json["findings"] = records(o.result->findings, "light", "error", paths);
     json["shortfalls"] = records(missing, "shortfall", "error", paths);
     json.update(Json::parse(report_json(*o.result)).value());
   }

@@ -14,7 +14,7 @@ struct Outcome {
     kRunning,   // it has not ended: a report that stays so belongs to a bake that was killed
     kComplete,  // all that was asked for
     kPartial,   // a pack is written that is less (BakeResult::shortfalls, ::left_out)
-    kFindings,  // --strict: the pack is written, and something is likely wrong with its light
+    kFindings,  // the pack is written, but misses --require
     kFailed,    // no pack
     kStopped,   // by the user: no pack
   };

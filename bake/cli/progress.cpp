@@ -131,20 +131,21 @@ void ProgressPrinter::draw(const Progress& progress, double seconds) {
   open_line_ = true;
 }
 
-void ProgressPrinter::line(const char* event, const std::string& message) {
+void ProgressPrinter::line(const char* event, const std::string& message, std::string_view id) {
   if (style_ == Style::kJson) {
-    const Json json = {{"event", event}, {"tool", kTool}, {"message", message}};
+    Json json = {{"event", event}, {"tool", kTool}, {"message", message}};
+    if (!id.empty()) json["id"] = id;
     std::fprintf(stderr, "%s\n", json.dump().c_str());
     return;
   }
   if (open_line_) std::fprintf(stderr, "\r\x1b[K");
   open_line_ = false;
-  std::fprintf(stderr, "%s%s\n", std::string(event) == "warning" ? "warning: " : "", message.c_str());
+  std::fprintf(stderr, "%s\n", (id.empty() ? message : fmt::format("warning: {} [{}]", message, id)).c_str());
 }
 
-void ProgressPrinter::warning(const std::string& message) {
+void ProgressPrinter::warning(const Warning& warning) {
   const std::lock_guard lock(mutex_);
-  if (warned_.insert(message).second) line("warning", message);
+  if (warned_.insert(warning.text).second) line("warning", warning.text, warning.code.name());
 }
 
 void ProgressPrinter::note(const std::string& message) {

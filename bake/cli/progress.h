@@ -26,7 +26,7 @@ class ProgressPrinter {
 
   void operator()(const Progress& progress);
   // Once, however many nodes of one name it is about.
-  void warning(const std::string& message);
+  void warning(const Warning& warning);
   void note(const std::string& message);
   // Ends a bar's line.
   void finish();
@@ -39,7 +39,7 @@ class ProgressPrinter {
   double silence() const;  // after which a line is due, s
   void watch();
   void tell_alive();
-  void line(const char* event, const std::string& message);
+  void line(const char* event, const std::string& message, std::string_view id = {});
 
   Style style_;
   static constexpr double kShort = 0.5;  // seconds

@@ -7,8 +7,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <iterator>
+#include <sstream>
 
 #include "formats/core/file.h"
+#include "formats/core/text.h"
 
 namespace oriel {
 namespace {
@@ -57,6 +60,32 @@ void on_stop(int signal) {
   if (g_on_stop != OnStop::kKeep) ::alarm(1);
 }
 
+std::vector<std::string> words_of(std::string_view text) {
+  std::istringstream in{std::string(text)};
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+// "error=CODE,CODE"
+OptionValue fatal_warnings(std::vector<std::string>& codes) {
+  OptionValue out{"error=LIST",
+                  [&codes](const std::string& typed) -> Status {
+                    std::istringstream list(typed.starts_with("error=") ? typed.substr(6) : "");
+                    bool any = false;
+                    for (std::string code; std::getline(list, code, ','); any = true) {
+                      if (!is_warning_code(code))
+                        return fail(ErrorCode::kUsage, "", "found '{}', expected the code of a warning: {}", code,
+                                    names_like(code, words_of(kWarningCodes)));
+                      codes.push_back(code);
+                    }
+                    if (any) return {};
+                    return fail(ErrorCode::kUsage, "", "found '{}', expected error=CODE,…, as error=missing-texture",
+                                typed);
+                  },
+                  [] { return std::string(); }};
+  out.repeats = true;
+  return out;
+}
+
 }  // namespace
 
 ProgressPrinter::Style BakeSession::style() const {
@@ -72,7 +101,18 @@ void BakeSession::begin() {
   printer.emplace(style());
   g_json = json_log;
   context.progress = [this](const Progress& progress) { (*printer)(progress); };
-  context.warn = [this](const Warning& warning) { printer->warning(warning.text); };
+  context.warn = [this](const Warning& warning) {
+    printer->warning(warning);
+    if (fatal || std::ranges::find(errors, warning.code.name()) == errors.end()) return;
+    fatal = warning;
+    context.stop = true;
+  };
+}
+
+Status BakeSession::judged(Status status) const {
+  if (!fatal) return status;
+  return fail(kUnmet, "", "{} [{}]: expected none, by -W or --require; nothing was written", fatal->text,
+              fatal->code.name());
 }
 
 std::vector<Option> run_options(BakeSession& session) {
@@ -83,6 +123,9 @@ std::vector<Option> run_options(BakeSession& session) {
       {"--seed", kRun, "Of every random number: another seed gives another, equally good, estimate",
        number(session.seed, 0, 18446744073709551615.0)},
       {"--quiet", kRun, "No progress; warnings and errors only", flag(session.quiet), Use::kEveryday},
+      {"-W,--warn", kRun,
+       "Warnings with these codes end the program with exit code 7 before anything is written. May be repeated",
+       fatal_warnings(session.errors), Use::kRare, "", "pipelines.md#warnings"},
       {"--json-log", kRun,
        "Every line on stderr is a JSON object: progress, notes, warnings and errors, those of usage and of signals too",
        flag(session.json_log), Use::kRare, "", "", "--quiet"},

@@ -12,17 +12,23 @@
 
 namespace oriel {
 
+inline constexpr ErrorCode kUnmet{7};  // the exit code where --require or -W is not met
+
 struct BakeSession {
   Context context;
   int threads = 0;
   std::uint64_t seed = 1;
   bool quiet = false, json_log = false;
+  std::vector<std::string> errors;  // codes of warnings that end the program
+  std::optional<Warning> fatal;     // that did
   std::optional<ProgressPrinter> printer;
   std::string less_memory = "a larger --texel, fewer --views or a smaller --memory";  // what to try
 
   // Threads, seed and progress of the context as the options have them.
   void begin();
   ProgressPrinter::Style style() const;
+  // kUnmet where a warning was fatal.
+  Status judged(Status status) const;
   void note(const std::string& text) { printer->note(text); }
 };
 

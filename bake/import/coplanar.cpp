@@ -142,7 +142,8 @@ void tell(const Scene& scene, const std::map<std::uint32_t, std::uint32_t>& told
       names += fmt::format("{}\"{}\" with \"{}\"", named > 1 ? ", " : "", scene.surfaces[surface].name,
                            scene.surfaces[below].name);
   if (named > kNamed) names += fmt::format(" and {} more", named - kNamed);
-  context.warning("surfaces lie in one place with others, and were moved a little apart: " + names);
+  context.warning("coplanar-surfaces",
+                  "surfaces lie in one place with others, and were moved a little apart: " + names);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bake/import/json.h"
+#include "bake/jobs/context.h"
 #include "bake/scene/scene.h"
 
 namespace oriel::gltf {
@@ -160,8 +161,8 @@ struct Document {
   std::vector<Light> lights;  // not placed
   std::vector<AnimationDesc> animations;
   int default_scene = -1;
-  bool quantized = false;             // KHR_mesh_quantization is in use
-  std::vector<std::string> warnings;  // what the user should know and what is left out, one line each
+  bool quantized = false;         // KHR_mesh_quantization is in use
+  std::vector<Warning> warnings;  // what the user should know and what is left out, one line each
 };
 
 // Error kInvalid for whatever breaks glTF 2.0, and for a required extension that Oriel does not know.

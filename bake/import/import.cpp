@@ -31,14 +31,15 @@ Result<std::vector<std::uint32_t>> find_roots(const gltf::Document& document, in
     const int taken = wanted >= 0 ? wanted : std::max(0, document.default_scene);
     const gltf::SceneDesc& scene = document.scenes[static_cast<std::size_t>(taken)];
     if (count > 1 && wanted < 0)
-      context.warning(fmt::format("the file has {} scenes: number {}{} is taken, --scene takes another", count, taken,
+      context.warning("scene-chosen",
+                      fmt::format("the file has {} scenes: number {}{} is taken, --scene takes another", count, taken,
                                   scene.name.empty() ? "" : fmt::format(", \"{}\",", scene.name)));
     return scene.nodes;
   }
   std::vector<std::uint32_t> roots;
   for (std::uint32_t i = 0; i < document.nodes.size(); ++i)
     if (document.nodes[i].parent < 0) roots.push_back(i);
-  if (!roots.empty()) context.warning("the file has no scene: all of its nodes are taken");
+  if (!roots.empty()) context.warning("scene-chosen", "the file has no scene: all of its nodes are taken");
   return roots;
 }
 
@@ -122,7 +123,9 @@ class ImageLoader {
         if (slot->image >= 0) used_[static_cast<std::size_t>(slot->image)] = true;
   }
 
-  void warn(const Error& error, Context& context) const { context.warning(error.text() + ": the texture is left out"); }
+  void warn(const Error& error, Context& context) const {
+    context.warning("missing-texture", error.text() + ": the texture is left out");
+  }
 
   // The bytes of each image, and the memory that it will need.
   Status read(Context& context) {
@@ -185,13 +188,18 @@ void warn_of_topology(const Scene& scene, const Scene* last, Context& context) {
   std::set<std::string> seen;
   WarningGroup odd(context,
                    "surfaces with edges of more than two triangles or triangles that face against their neighbours",
-                   WarningKind::kFacingApart);
+                   "facing-apart");
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& surface = scene.surfaces[i];
     if (last != nullptr && is_known(scene, i, *last)) continue;
     if (!seen.insert(fmt::format("{}\n{}\n{}", surface.mesh_name, surface.material, surface.triangle_count)).second)
       continue;
     if (context.stopped()) return;
+    if (surface.triangle_count > kMaxSoupTriangles) {
+      context.warning("not-oriented", fmt::format("surface \"{}\" has {} triangles: its orientation was not checked",
+                                                  surface.name, surface.triangle_count));
+      continue;
+    }
     const SoupReport report = inspect_soup(welded_corners(scene, surface));
     const bool back_matters = !scene.materials[surface.material].double_sided && report.misoriented_triangles > 0;
     if (!back_matters && report.non_manifold_edges == 0) continue;
@@ -203,7 +211,7 @@ void warn_of_topology(const Scene& scene, const Scene* last, Context& context) {
       text += fmt::format("{}{} edges are shared by more than two triangles", text.empty() ? "" : ", ",
                           report.non_manifold_edges);
     odd.add(fmt::format("surface \"{}\": {}", surface.name, text),
-            back_matters ? WarningKind::kFacingApart : WarningKind::kSharedEdges);
+            back_matters ? WarningCode("facing-apart") : WarningCode("shared-edges"));
   }
   odd.finish();
 }
@@ -221,7 +229,9 @@ Result<Bytes> read_scene_file(const fs::path& path, std::uint64_t max_bytes, glt
   ORIEL_TRY(const auto foreign, source_format(path, bytes));
   if (!foreign) return bytes;
   ImportProcess process;
-  process.warn = [&](const std::string& text) { context.warning(text); };
+  process.warn = [&](const std::string& text) {
+    context.warning(text.starts_with("texture ") ? WarningCode("missing-texture") : "converted", text);
+  };
   process.stopped = [&] { return context.stopped(); };
   process.read = [&](const fs::path& file) {
     if (const auto other = read_file(file, max_bytes))
@@ -240,8 +250,8 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY(const gltf::Container container, gltf::split_container(bytes, file));
   ORIEL_TRY(gltf::JsonDocument json, gltf::JsonDocument::parse(container.json, file));
   ORIEL_TRY(gltf::Document document, gltf::parse_document(json));
-  for (const std::string& warning : container.warnings) context.warning(warning);
-  for (const std::string& warning : document.warnings) context.warning(warning);
+  for (const std::string& warning : container.warnings) context.warning("file-damaged", warning);
+  for (const Warning& warning : document.warnings) context.warning(warning);
   const fs::path folder = path.parent_path();
   ORIEL_TRY(const gltf::BufferStore buffers, gltf::BufferStore::load(document, container, folder, budget, out.inputs));
   gltf::AccessorReader accessors(document, buffers, budget);
@@ -283,6 +293,24 @@ Result<ImportedScene> import_gltf(const fs::path& path, const ImportOptions& opt
   } catch (const std::exception& e) {
     return fail(ErrorCode::kRuntime, path.string(), "the import failed: {}", e.what());
   }
+}
+
+Result<gltf::InputHashes> hash_inputs(const fs::path& path, const ImportOptions& options, Context& context) {
+  gltf::InputHashes inputs;
+  ORIEL_TRY(const Bytes bytes, read_scene_file(path, options.max_bytes, inputs, context));
+  const std::string file = path.filename().string();
+  ORIEL_TRY(const gltf::Container container, gltf::split_container(bytes, file));
+  ORIEL_TRY(gltf::JsonDocument json, gltf::JsonDocument::parse(container.json, file));
+  gltf::MemoryBudget budget(std::numeric_limits<std::uint64_t>::max());
+  for (const char* list : {"buffers", "images"})
+    for (std::size_t i = 0; i < json.root()[list].size(); ++i)
+      if (const std::string uri = json.root()[list].at(i)["uri"].text(); !uri.empty() && !gltf::is_data_uri(uri))
+        (void)gltf::read_external(uri, path.parent_path(), file, budget, inputs);  // the import tells what is missing
+  std::vector<fs::path> others{options.sky_file};
+  for (const auto& [node, profile] : options.ies) others.push_back(profile);
+  for (const fs::path& other : others)
+    if (const auto found = read_file(other)) inputs.emplace_back(other.filename().string(), hash128_hex(*found));
+  return inputs;
 }
 
 }  // namespace oriel

@@ -47,6 +47,10 @@ struct ImportedScene {
   std::vector<Hash128> image_files = {};                    // by Scene::images: of the bytes that hold it
 };
 
+// The hashes of all files that an import may read, quickly: of the scene, its buffers and images, sky and profiles.
+Result<std::vector<std::pair<std::string, std::string>>> hash_inputs(const std::filesystem::path& path,
+                                                                     const ImportOptions& options, Context& context);
+
 // Reads a .gltf (external or embedded buffers and images) or a .glb. The file is told by its first bytes, not its name.
 // Everything is validated: JSON depth and types, every index, bounds, finite numbers, node cycles. Degenerate triangles
 // are dropped with one warning per mesh, a non-finite vertex is an error; what is not supported gets one warning

@@ -43,10 +43,10 @@ void clean(SkyImage& image, float scale, const std::string& name, Context& conte
       value = std::min(value * scale, kMostRadiance);
     }
   if (nans + negatives > 0)
-    context.warning(fmt::format("{}: found {} values that are not a number and {} negative ones, taken as 0", name,
-                                nans, negatives));
+    context.warning("bad-sky", fmt::format("{}: found {} values that are not a number and {} negative ones, taken as 0",
+                                           name, nans, negatives));
   if (infinities > 0)
-    context.warning(fmt::format("{}: found {} infinite values, taken as {}", name, infinities, kHalfMax));
+    context.warning("bad-sky", fmt::format("{}: found {} infinite values, taken as {}", name, infinities, kHalfMax));
 }
 
 Status load_sky(const ImportOptions& options, gltf::MemoryBudget& budget, ImportedScene& out, Context& context) {
@@ -67,6 +67,7 @@ Status load_sky(const ImportOptions& options, gltf::MemoryBudget& budget, Import
   ORIEL_TRY_VOID(budget.take(std::uint64_t{2} * sizeof(Vec3) * size.width * size.height, name));
   if (size.width != 2 * size.height)
     context.warning(
+        "bad-sky",
         fmt::format("{}: found {} x {} texels, expected twice as wide as high: it is stretched over the sphere", name,
                     size.width, size.height));
   ORIEL_TRY(scene.sky_image, read_sky_image(options.sky_file));
@@ -103,7 +104,7 @@ Status load_profiles(const ImportOptions& options, gltf::MemoryBudget& budget, I
       const std::string extension = path.extension().string();
       const bool eulumdat = extension == ".ldt" || extension == ".LDT" || extension == ".Ldt";
       ORIEL_TRY(IesFile file, eulumdat ? parse_ldt(text, path.string()) : parse_ies(text, path.string()));
-      for (const std::string& warning : file.warnings) context.warning(warning);
+      for (const std::string& warning : file.warnings) context.warning("bad-profile", warning);
       scene.profiles.push_back(std::move(file.profile));
     }
     for (Light& light : scene.lights)
@@ -116,7 +117,7 @@ Status load_profiles(const ImportOptions& options, gltf::MemoryBudget& budget, I
 Status none_scaled(const char* option, const LightScale& scale, const std::vector<std::string>& there,
                    Context& context) {
   if (scale.names.empty()) {
-    context.warning(fmt::format("{} has no effect: nothing of its kind shines", option));
+    context.warning("idle-option", fmt::format("{} has no effect: nothing of its kind shines", option));
     return {};
   }
   return fail(ErrorCode::kUsage, option, "found the name \"{}\", expected one that shines: {}", scale.names,

@@ -331,9 +331,9 @@ void warn_of_drops(const std::string& what, const DropCounts& drops, WarningGrou
   add(drops.degenerate, "degenerate triangles dropped");
   add(drops.duplicate, "exact duplicates of triangles dropped");
   add(drops.incomplete, "primitives end with an incomplete triangle");
-  warnings.add(what + ": " + text, drops.degenerate > 0  ? WarningKind::kDegenerate
-                                   : drops.duplicate > 0 ? WarningKind::kDuplicate
-                                                         : WarningKind::kOther);
+  warnings.add(what + ": " + text, drops.degenerate > 0  ? WarningCode("degenerate-triangles")
+                                   : drops.duplicate > 0 ? WarningCode("duplicate-triangles")
+                                                         : WarningCode("file-damaged"));
 }
 
 }  // namespace
@@ -350,8 +350,8 @@ Result<std::vector<LoadedMesh>> load_meshes(const Document& document, const Buff
                                             AccessorReader& accessors, Context& context) {
   std::vector<LoadedMesh> meshes;
   std::size_t thin = 0, bare = 0;
-  WarningGroup dropped(context, "meshes with degenerate, doubled or incomplete triangles", WarningKind::kDegenerate);
-  WarningGroup mended(context, "attributes with numbers that are NaN or infinite");
+  WarningGroup dropped(context, "meshes with degenerate, doubled or incomplete triangles", "degenerate-triangles");
+  WarningGroup mended(context, "attributes with numbers that are NaN or infinite", "bad-number");
   for (std::size_t i = 0; i < document.meshes.size(); ++i) {
     if (context.stopped()) return fail(ErrorCode::kStopped, document.file, "stopped");
     const MeshDesc& desc = document.meshes[i];
@@ -375,8 +375,8 @@ Result<std::vector<LoadedMesh>> load_meshes(const Document& document, const Buff
   }
   dropped.finish();
   mended.finish();
-  if (thin > 0) context.warning(fmt::format("{} primitives of points or lines are left out", thin));
-  if (bare > 0) context.warning(fmt::format("{} primitives without POSITION are left out", bare));
+  if (thin > 0) context.warning("unsupported", fmt::format("{} primitives of points or lines are left out", thin));
+  if (bare > 0) context.warning("file-damaged", fmt::format("{} primitives without POSITION are left out", bare));
   return meshes;
 }
 

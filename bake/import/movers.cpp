@@ -68,8 +68,8 @@ Result<std::vector<MoverKey>> mover_keys(const Document& document, std::uint32_t
       keys.push_back({static_cast<float>(m.time_s), pose_of(m.world_from_node, origin)});
   }
   if (moving > 1)
-    context.warning(
-        fmt::format("mover \"{}\": the first of {} animations is taken", mover_name(document, node), moving));
+    context.warning("animation-left-out", fmt::format("mover \"{}\": the first of {} animations is taken",
+                                                      mover_name(document, node), moving));
   return keys;
 }
 
@@ -92,8 +92,10 @@ void part_lamps(Scene& scene, std::span<const std::int32_t> carried, Context& co
   for (std::size_t i = 0; i < scene.movers.size(); ++i) {
     SceneMover& mover = scene.movers[i];
     if (has_lamp[i] && mover.keys.empty()) {
-      context.warning(fmt::format(
-          "mover \"{}\" has an emissive material: its light is baked where it is, so it stands still", mover.name));
+      context.warning(
+          "mover-still",
+          fmt::format("mover \"{}\" has an emissive material: its light is baked where it is, so it stands still",
+                      mover.name));
       continue;
     }
     if (has_lamp[i]) {
@@ -292,7 +294,8 @@ Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::str
       movers.of_node[pose.node] = static_cast<std::int32_t>(movers.nodes.size());
       movers.nodes.push_back(pose.node);
     } else if ((marks[pose.node] & kAsked) != 0) {
-      context.warning(fmt::format("mover \"{}\" shows no mesh: it is none", mover_name(document, pose.node)));
+      context.warning("mover-still",
+                      fmt::format("mover \"{}\" shows no mesh: it is none", mover_name(document, pose.node)));
     }
   }
   for (const NodePose& pose : poses)
@@ -321,8 +324,8 @@ Status place_movers(const PosedNodes& nodes, std::span<const Animation> animatio
     if (!out.keys.empty() && light < carried.size())
       carried[light] = mover;
     else
-      context.warning(fmt::format("mover \"{}\" carries the light \"{}\": that stays where it is", out.name,
-                                  mover_name(document, pose.node)));
+      context.warning("mover-light", fmt::format("mover \"{}\" carries the light \"{}\": that stays where it is",
+                                                 out.name, mover_name(document, pose.node)));
   }
   part_lamps(scene, carried, context);
   return {};

@@ -38,8 +38,9 @@ void parse_extensions(const JsonAt& root, Document& document) {
   const auto tell = [&](const std::string& name, const Extension& extension) {
     if ((extension.support != Support::kWithout && extension.support != Support::kNone) || !told.insert(name).second)
       return;
-    document.warnings.push_back(fmt::format("extension {} is not supported and is left out{}{}", name,
-                                            *extension.advice ? ": " : "", extension.advice));
+    document.warnings.push_back({fmt::format("extension {} is not supported and is left out{}{}", name,
+                                             *extension.advice ? ": " : "", extension.advice),
+                                 "unsupported"});
   };
   for (std::size_t i = 0; i < used.size(); ++i) {
     const std::string name = used.at(i).text();
@@ -278,7 +279,7 @@ Result<Document> parse_document(JsonDocument& json) {
   ORIEL_TRY_VOID(json.status());
   parse_nodes(root, document);
   ORIEL_TRY_VOID(json.status());
-  for (std::string& repair : json.repairs()) document.warnings.push_back(std::move(repair));
+  for (std::string& repair : json.repairs()) document.warnings.push_back({std::move(repair), "file-damaged"});
   return document;
 }
 

@@ -90,20 +90,25 @@ class MaterialParser {
   void warn_of_omissions() {
     if (occlusion_maps_ > 0)
       document_.warnings.push_back(
-          fmt::format("occlusion maps of {} materials are left out: the bake finds occlusion itself", occlusion_maps_));
+          {fmt::format("occlusion maps of {} materials are left out: the bake finds occlusion itself", occlusion_maps_),
+           "unsupported"});
     for (const auto& [name, materials] : left_out_)
-      document_.warnings.push_back(fmt::format(
-          "{} of {} is not supported and is left out: {}", name,
-          materials.size() == 1 ? fmt::format("material \"{}\"", materials.front())
-                                : fmt::format("{} materials, \"{}\" among them,", materials.size(), materials.front()),
-          extension_named(name).advice));
+      document_.warnings.push_back(
+          {fmt::format("{} of {} is not supported and is left out: {}", name,
+                       materials.size() == 1
+                           ? fmt::format("material \"{}\"", materials.front())
+                           : fmt::format("{} materials, \"{}\" among them,", materials.size(), materials.front()),
+                       extension_named(name).advice),
+           "unsupported"});
     for (const auto& [name, count] : replaced_)
       document_.warnings.push_back(
-          fmt::format("{} of {} textures is not supported: the PNG or JPEG beside it is shown", name, count));
+          {fmt::format("{} of {} textures is not supported: the PNG or JPEG beside it is shown", name, count),
+           "unsupported"});
     for (const auto& [name, count] : unread_)
       document_.warnings.push_back(
-          fmt::format("{} of {} textures is not supported, they have no other image and are left out: {}", name, count,
-                      extension_named(name).advice));
+          {fmt::format("{} of {} textures is not supported, they have no other image and are left out: {}", name, count,
+                       extension_named(name).advice),
+           "missing-texture"});
   }
 
  private:
@@ -119,12 +124,12 @@ class MaterialParser {
       ++(source.present() ? replaced_ : unread_)[name];
       told = true;
     }
-    if (!told) warn(value, "has no image that can be read and is left out");
+    if (!told) warn(value, "has no image that can be read and is left out", "missing-texture");
     return texture;
   }
 
-  void warn(const JsonAt& value, const std::string& message) {
-    document_.warnings.push_back(fmt::format("{}: {}", value.path(), message));
+  void warn(const JsonAt& value, const std::string& message, WarningCode code = "material-value") {
+    document_.warnings.emplace_back(fmt::format("{}: {}", value.path(), message), code);
   }
 
   float unit(const JsonAt& value, double x) {
@@ -145,7 +150,8 @@ class MaterialParser {
     if (texture < 0) return slot;
     if (texcoord > 1) {
       warn(value,
-           fmt::format("texture coordinates {} are not supported, expected 0 or 1: the texture is left out", texcoord));
+           fmt::format("texture coordinates {} are not supported, expected 0 or 1: the texture is left out", texcoord),
+           "missing-texture");
       return {};
     }
     const TextureDesc& desc = textures_[static_cast<std::size_t>(texture)];
@@ -287,7 +293,7 @@ class MaterialParser {
     m.coat_texture = slot(coat["clearcoatTexture"]);
     m.coat_roughness_texture = slot(coat["clearcoatRoughnessTexture"]);
     if (slot(coat["clearcoatNormalTexture"]).image >= 0)
-      warn(coat, "clearcoatNormalTexture is left out: the coat follows the normals of what it covers");
+      warn(coat, "clearcoatNormalTexture is left out: the coat follows the normals of what it covers", "unsupported");
   }
 
   void parse_anisotropy(const JsonAt& value, SceneMaterial& m) {

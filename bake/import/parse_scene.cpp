@@ -194,8 +194,9 @@ Light parse_light(const JsonAt& value, std::size_t i, Document& document) {
       value.error(fmt::format("found color {}, expected 0 to 1e30", light.color[c]));
   }
   if (value["range"].present())
-    document.warnings.push_back(fmt::format("{}: range {} is ignored: light falls off with the square of the distance",
-                                            value.path(), value["range"].number(0)));
+    document.warnings.push_back({fmt::format("{}: range {} is ignored: light falls off with the square of the distance",
+                                             value.path(), value["range"].number(0)),
+                                 "unsupported"});
   if (light.type == LightType::kSpot) {
     const JsonAt spot = value["spot"];
     const double inner = spot["innerConeAngle"].number(0), outer = spot["outerConeAngle"].number(kPiD / 4);
@@ -306,7 +307,8 @@ void note_deformations(Document& document) {
   });
   if (moves)
     document.warnings.push_back(
-        "animations of skins and of morph targets are left out: meshes stand as their joints and weights do at rest");
+        {"animations of skins and of morph targets are left out: meshes stand as their joints and weights do at rest",
+         "animation-left-out"});
 }
 
 }  // namespace

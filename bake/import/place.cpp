@@ -112,9 +112,9 @@ class Placer {
       : scene_(scene),
         with_colors_(with_colors),
         with_tangents_(with_tangents),
-        normals_wrong_(context, "surfaces with normals on the back of their triangles", WarningKind::kNormalsBehind),
-        collapsed_(context, "surfaces with triangles too small or thin for where they stand", WarningKind::kTooSmall),
-        texcoords_missing_(context, "surfaces without texture coordinates that their material wants") {}
+        normals_wrong_(context, "surfaces with normals on the back of their triangles", "normals-behind"),
+        collapsed_(context, "surfaces with triangles too small or thin for where they stand", "too-small"),
+        texcoords_missing_(context, "surfaces without TEXCOORDs that their material wants", "missing-texcoords") {}
 
   void place(const TriangleMesh& mesh, const DMat4& world_from_mesh, Surface surface) {
     surface.first_triangle = static_cast<std::uint32_t>(scene_.triangles.size());
@@ -296,10 +296,10 @@ Status limit_triangles(const Document& document, std::uint64_t most, Context& co
         all, most);
   for (Instance& instance : instances) instance.mesh = meshes[instance.mesh].second;
   if (left < all)
-    context.warning({fmt::format("{} triangles with all instances take too long for --time: meshes that stand in "
-                                 "several places are shown coarser, {} triangles in all; more time keeps them",
-                                 all, left),
-                     WarningKind::kTimeOver});
+    context.warning("time-over",
+                    fmt::format("{} triangles with all instances take too long for --time: meshes that stand in "
+                                "several places are shown coarser, {} triangles in all; more time keeps them",
+                                all, left));
   return {};
 }
 

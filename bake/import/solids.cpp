@@ -196,7 +196,7 @@ void find_solids(Scene& scene, Context& context) {
   if (std::ranges::none_of(scene.materials, [](const SceneMaterial& m) { return m.solid; })) return;
   const auto panes = find_panes(scene);
   std::map<std::pair<std::uint32_t, float>, std::uint32_t> copies;  // by material and wall: the pane
-  WarningGroup told(context, "surfaces of solid glass that are taken for thin panes");
+  WarningGroup told(context, "surfaces of solid glass that are taken for thin panes", "thin-glass");
   for (const auto& [s, found] : panes) {
     Surface& surface = scene.surfaces[s];
     const auto [copy, is_new] = copies.try_emplace({surface.material, found.wall_m}, scene.materials.size());

@@ -179,9 +179,11 @@ Result<std::vector<Animation>> load_animations(const Document& document, std::sp
   }
   if (still > 0)
     context.warning(
+        "animation-left-out",
         fmt::format("{} animation channels move other things than cameras and meshes: those stand still", still));
   if (cubic > 0)
-    context.warning(fmt::format("{} cubic spline channels are taken as straight between their keys", cubic));
+    context.warning("animation-simplified",
+                    fmt::format("{} cubic spline channels are taken as straight between their keys", cubic));
   return animations;
 }
 

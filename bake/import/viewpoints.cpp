@@ -62,6 +62,7 @@ Status place_paths(const Document& document, const std::vector<std::uint32_t>& c
       ORIEL_TRY(path.keys, camera_keys(document, node, animation, scene.origin, lost));
       if (lost)
         context.warning(
+            "bad-viewpoint",
             fmt::format("the animation of camera \"{}\" has no direction somewhere and is left out", path.name));
       else if (!path.keys.empty())
         scene.paths.push_back(std::move(path));
@@ -83,6 +84,7 @@ Status place_viewpoints(const PosedNodes& nodes, std::span<const Animation> anim
     const Pose pose = camera_pose(node_pose.world_from_node, scene.origin);
     if (!pose.ok) {
       context.warning(
+          "bad-viewpoint",
           fmt::format("node \"{}\": its camera or light has no finite place and direction and is left out", node.name));
       continue;
     }

@@ -10,22 +10,22 @@ class WarningGroup {
   static constexpr std::size_t kLimit = 8;
 
   // `what` completes "3 more …".
-  WarningGroup(Context& context, std::string what, WarningKind kind = WarningKind::kOther)
-      : context_(context), what_(std::move(what)), kind_(kind) {}
+  WarningGroup(Context& context, std::string what, WarningCode code)
+      : context_(context), what_(std::move(what)), code_(code) {}
 
-  void add(const std::string& message) { add(message, kind_); }
-  void add(const std::string& message, WarningKind kind) {
-    if (++count_ <= kLimit) context_.warning({message, kind});
+  void add(const std::string& message) { add(message, code_); }
+  void add(const std::string& message, WarningCode code) {
+    if (++count_ <= kLimit) context_.warning(code, message);
   }
   // Call once, after the last add().
   void finish() {
-    if (count_ > kLimit) context_.warning({fmt::format("{} more {}", count_ - kLimit, what_), kind_});
+    if (count_ > kLimit) context_.warning(code_, fmt::format("{} more {}", count_ - kLimit, what_));
   }
 
  private:
   Context& context_;
   std::string what_;
-  WarningKind kind_;
+  WarningCode code_;
   std::size_t count_ = 0;
 };
 

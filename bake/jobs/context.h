@@ -22,26 +22,40 @@ struct Progress {
   double left_s = -1;      // of the whole work, as it is foretold now; negative: nobody knows
 };
 
-// What a warning is about, for who sorts them. The text is for people.
-enum class WarningKind {
-  kOther,
-  kNormalsBehind,  // normals on the back of their triangles
-  kFacingApart,    // triangles that face against their neighbours
-  kDegenerate,     // triangles without area
-  kDuplicate,      // copies of triangles
-  kTooSmall,       // triangles below the rounding of where they stand
-  kSharedEdges,    // edges of more than two triangles
-  kUnitGuessed,    // the file's numbers are no metres
-  kEyesGuessed,    // people are of another size
-  kTimeOver,       // something is left out for want of time
-  kSkyAdded,       // a sky to the sun of the file
-  kNoImage,        // a material whose reflections are shown without an image
+// What warnings are about, for who sorts them: stable. The manual lists them (docs/pipelines.md#warnings).
+inline constexpr std::string_view kWarningCodes =
+    "animation-left-out animation-simplified backs-seen bad-number bad-profile bad-sky bad-viewpoint buried-point "
+    "cache-unwritable coarser-detail coarser-probes coarser-texels converted coplanar-surfaces degenerate-triangles "
+    "dropped-samples duplicate-triangles ended-early energy-ledger error-missed eyes-guessed facing-apart "
+    "failed-checks file-damaged idle-option left-out light-groups light-lingers light-units material-value "
+    "missing-texcoords missing-texture mover-light mover-still night no-image no-light no-reflections normals-behind "
+    "not-oriented nothing-to-reuse plain-charts scene-chosen shared-edges sky-added sun-replaced thin-glass "
+    "time-missed time-over too-small trade-incomplete unit-guessed unsupported";
+constexpr bool is_warning_code(std::string_view name) {
+  for (std::size_t at = 0; (at = kWarningCodes.find(name, at)) != kWarningCodes.npos; at += name.size())
+    if ((at == 0 || kWarningCodes[at - 1] == ' ') &&
+        (kWarningCodes.size() == at + name.size() || kWarningCodes[at + name.size()] == ' '))
+      return !name.empty();
+  return false;
+}
+
+class WarningCode {
+ public:
+  consteval WarningCode(const char* name) : name_(name) {
+    if (!is_warning_code(name_)) throw "expected one of kWarningCodes";  // which no compiler takes
+  }
+  std::string_view name() const { return name_; }
+  friend bool operator==(const WarningCode&, const WarningCode&) = default;
+
+ private:
+  std::string_view name_;
 };
+
 struct Warning {
   std::string text;
-  WarningKind kind;
-  Warning(std::string said, WarningKind of = WarningKind::kOther) : text(std::move(said)), kind(of) {}
-  Warning(const char* said, WarningKind of = WarningKind::kOther) : text(said), kind(of) {}
+  WarningCode code;
+  Warning(std::string said, WarningCode of = "left-out") : text(std::move(said)), code(of) {}
+  Warning(const char* said, WarningCode of = "left-out") : text(said), code(of) {}
 };
 std::vector<std::string> texts_of(const std::vector<Warning>& warnings);
 
@@ -72,7 +86,10 @@ class Context {
 
   // Work under way shall end: it is thrown away, or within an Interruptible may stay as it is.
   bool stopped() const { return stop.load(std::memory_order_relaxed) || (enough_ && enough_()); }
+  void warning(WarningCode code, std::string text) { warning(Warning(std::move(text), code)); }
   void warning(const Warning& warning);
+  void warning(const char* text) = delete;  // it has no code
+  void warning(std::string text) = delete;
   void report(std::string_view stage, double fraction, std::uint64_t rays = 0);
   // A part of a stage is under way: how much of its time is over, [0,1], as far as that can be told.
   void foretell(std::string_view part, double fraction);

@@ -94,7 +94,7 @@ bool write_beside_and_rename(const fs::path& path, const fs::path& beside, const
 
 }  // namespace
 
-UnitCache::UnitCache(fs::path folder, std::string program, std::function<void(const std::string&)> warn,
+UnitCache::UnitCache(fs::path folder, std::string program, std::function<void(const Warning&)> warn,
                      std::chrono::milliseconds lease_life)
     : folder_(std::move(folder)),
       program_(std::move(program)),
@@ -121,8 +121,9 @@ void UnitCache::write(const Hash128& own_name, const char* ending, const KeptUni
   fs::create_directories(path.parent_path(), ec);
   const fs::path beside = path.string() + ".tmp-" + to_hex(hash_of(Leases::own_name(), ++written_));
   if (!write_beside_and_rename(path, beside, file_of(own_name, unit)) && writes_.exchange(false) && warn_)
-    warn_(fmt::format("the cache {} cannot be written: {}; what follows is computed and not kept", folder_.string(),
-                      std::strerror(errno)));
+    warn_({fmt::format("the cache {} cannot be written: {}; what follows is computed and not kept", folder_.string(),
+                       std::strerror(errno)),
+           "cache-unwritable"});
 }
 
 std::optional<KeptUnit> UnitCache::find(const Hash128& name) {
@@ -172,8 +173,19 @@ UnitShare UnitCache::share() const {
 }
 
 std::string program_identity() {
-  const auto program = bytes_of("/proc/self/exe");
-  return program ? hash128_hex(*program) : "";
+  auto program = bytes_of("/proc/self/exe");
+  if (!program) return "";
+  const auto mark = std::as_bytes(std::span(kCommitMark));
+  for (auto at = program->begin();;) {
+    at = std::search(at, program->end(), mark.begin(), mark.end());
+    if (program->end() - at < std::ssize(mark) + 12) return hash128_hex(*program);
+    at = std::fill_n(at + std::ssize(mark), 12, std::byte{});
+  }
+}
+
+std::string build_id() {
+  static const std::string id = program_identity().substr(0, 12);
+  return id;
 }
 
 std::string instruction_sets(bool embree_fixed) {

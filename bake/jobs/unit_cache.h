@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "bake/jobs/context.h"
 #include "bake/jobs/leases.h"
 #include "bake/jobs/units.h"
 
@@ -17,7 +18,7 @@ namespace oriel {
 class UnitCache : public UnitStore {
  public:
   // `program`: who computes; units of others are not found (program_identity()).
-  UnitCache(std::filesystem::path folder, std::string program, std::function<void(const std::string&)> warn,
+  UnitCache(std::filesystem::path folder, std::string program, std::function<void(const Warning&)> warn,
             std::chrono::milliseconds lease_life = Leases::kLife);
 
   std::optional<KeptUnit> find(const Hash128& name) override;
@@ -39,7 +40,7 @@ class UnitCache : public UnitStore {
 
   std::filesystem::path folder_;
   std::string program_;
-  std::function<void(const std::string&)> warn_;
+  std::function<void(const Warning&)> warn_;
   Leases leases_;
   std::atomic<bool> writes_{true};
   std::atomic<std::uint64_t> written_{0};
@@ -47,8 +48,11 @@ class UnitCache : public UnitStore {
   UnitShare share_;
 };
 
-// The bytes of this program, as a hash: another build may compute other bits.
+// The bytes of this program but the commit that it is of (kCommitMark), as a hash: another build may compute other
+// bits.
 std::string program_identity();
+std::string build_id();                                           // its first 12 digits
+inline constexpr std::string_view kCommitMark = "oriel-commit:";  // 12 bytes follow
 
 // The instruction sets of this machine that results may depend on: Embree and the C library choose among them. With
 // Embree's fixed (BakeOptions::reproducible) only FMA, which the C library's functions use where the CPU has it.

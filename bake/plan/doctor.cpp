@@ -13,30 +13,29 @@ constexpr double kMostPages = 16;       // of texels
 constexpr double kLeastTexels = 100;    // of a whole scene
 
 struct ImportRule {
-  WarningKind warning;
+  WarningCode warning;
   FindingKind kind;
   const char *expected, *fix;
 };
 constexpr std::array kImportRules{
-    ImportRule{WarningKind::kNormalsBehind, FindingKind::kFlippedNormals,
+    ImportRule{"normals-behind", FindingKind::kFlippedNormals,
                "normals on the side from which corners run counter-clockwise",
                "recalculate normals outside (Blender: Shift+N) and export again"},
-    ImportRule{WarningKind::kFacingApart, FindingKind::kFlippedNormals, "neighbouring triangles that face alike",
+    ImportRule{"facing-apart", FindingKind::kFlippedNormals, "neighbouring triangles that face alike",
                "recalculate normals outside (Blender: Shift+N), or bake with --double-sided"},
-    ImportRule{WarningKind::kDegenerate, FindingKind::kDegenerate, "triangles with an area, each once",
+    ImportRule{"degenerate-triangles", FindingKind::kDegenerate, "triangles with an area, each once",
                "merge by distance and delete degenerate faces"},
-    ImportRule{WarningKind::kDuplicate, FindingKind::kDegenerate, "triangles with an area, each once",
+    ImportRule{"duplicate-triangles", FindingKind::kDegenerate, "triangles with an area, each once",
                "delete the copies"},
-    ImportRule{WarningKind::kTooSmall, FindingKind::kDegenerate,
-               "triangles larger than the rounding of where they stand",
+    ImportRule{"too-small", FindingKind::kDegenerate, "triangles larger than the rounding of where they stand",
                "merge by distance, or move the scene to its origin"},
-    ImportRule{WarningKind::kSharedEdges, FindingKind::kDegenerate, "edges of two triangles",
+    ImportRule{"shared-edges", FindingKind::kDegenerate, "edges of two triangles",
                "delete faces inside the body, or split it"},
-    ImportRule{WarningKind::kUnitGuessed, FindingKind::kImport, "numbers in metres, as glTF has them",
+    ImportRule{"unit-guessed", FindingKind::kImport, "numbers in metres, as glTF has them",
                "export in metres, or name the unit with --unit"},
-    ImportRule{WarningKind::kEyesGuessed, FindingKind::kImport, "cameras, or rooms, as people of usual size have them",
+    ImportRule{"eyes-guessed", FindingKind::kImport, "cameras, or rooms, as people of usual size have them",
                "place a camera where eyes are, or name their height with --eye-height"},
-    ImportRule{WarningKind::kSkyAdded, FindingKind::kImport, "a sky beside the sun",
+    ImportRule{"sky-added", FindingKind::kImport, "a sky beside the sun",
                "--sky none leaves it out; --sky FILE.hdr or --day DATE@LAT,LON gives another"},
 };
 
@@ -82,7 +81,7 @@ std::vector<Finding> findings_of_import(std::span<const Warning> warnings) {
   for (const Warning& warning : warnings) {
     Finding f = split_warning(warning.text);
     const auto rule = std::find_if(kImportRules.begin(), kImportRules.end(),
-                                   [&](const ImportRule& r) { return r.warning == warning.kind; });
+                                   [&](const ImportRule& r) { return r.warning == warning.code; });
     const bool known = rule != kImportRules.end();
     f.kind = known ? rule->kind : FindingKind::kImport;
     f.expected = known ? rule->expected : "a file that is imported as it stands";

@@ -117,8 +117,9 @@ void keep_most_important(std::span<const ReflectorMaterial> materials, bool eyes
   });
   if (list.size() <= limit) return;
   found.omitted.push_back(
-      fmt::format("{} curved pieces ('{}' and others): less important than the {} curved reflectors kept",
-                  list.size() - limit, list[limit].reflector.name, limit));
+      {fmt::format("{} curved pieces ('{}' and others): less important than the {} curved reflectors kept",
+                   list.size() - limit, list[limit].reflector.name, limit),
+       "no-reflections"});
   list.resize(limit);
 }
 

@@ -47,7 +47,7 @@ struct FoundCurvedReflectors {
   std::vector<FoundCurvedReflector> reflectors;  // most important first
   std::vector<SurroundMap> maps;                 // one each: centre and size, no texels
   std::vector<CurvedObject> objects;
-  std::vector<std::string> omitted;  // what was left out and why; one line each
+  std::vector<Warning> omitted;  // what was left out and why; one line each
 };
 
 // Texels of a map's side for a lobe of that roughness: a mirror 512, wider lobes fewer.

@@ -225,8 +225,9 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
       found.reflectors.push_back(all[r]);
       found.reflectors.back().shown_sr = shown[r];
     } else {
-      found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less to be seen than the {} reflectors kept",
-                                          all[r].reflector.name, all[r].reflector.area_m2, limit));
+      found.omitted.push_back({fmt::format("'{}' ({:.3g} m²): less to be seen than the {} reflectors kept",
+                                           all[r].reflector.name, all[r].reflector.area_m2, limit),
+                               "no-reflections"});
     }
   }
   return {};

@@ -49,9 +49,9 @@ Groups group_triangles(const Scene& scene, std::span<const ReflectorMaterial> ma
   for (std::size_t m = 0; m < reason.size(); ++m)
     // A material without any specular lobe leaves nothing out.
     if (used[m] && !reason[m].empty() && (materials[m].f90 > 0 || max_component(materials[m].f0) > 0))
-      omitted.emplace_back(fmt::format("material '{}': baked and shown, but its reflections without an image: {}",
-                                       scene.materials[m].name, reason[m]),
-                           WarningKind::kNoImage);
+      omitted.push_back({fmt::format("material '{}': baked and shown, but its reflections without an image: {}",
+                                     scene.materials[m].name, reason[m]),
+                         "no-image"});
   return groups;
 }
 
@@ -110,10 +110,12 @@ void keep_most_important(std::uint32_t limit, FoundReflectors& found) {
   auto& list = found.reflectors;
   if (list.size() <= limit) return;
   for (std::size_t i = limit; i < std::min<std::size_t>(list.size(), limit + kNamed); ++i)
-    found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less important than {} others", list[i].reflector.name,
-                                        list[i].reflector.area_m2, limit));
+    found.omitted.push_back({fmt::format("'{}' ({:.3g} m²): less important than {} others", list[i].reflector.name,
+                                         list[i].reflector.area_m2, limit),
+                             "no-reflections"});
   if (list.size() > limit + kNamed)
-    found.omitted.push_back(fmt::format("{} more reflectors: less important still", list.size() - limit - kNamed));
+    found.omitted.push_back(
+        {fmt::format("{} more reflectors: less important still", list.size() - limit - kNamed), "no-reflections"});
   list.resize(limit);
 }
 

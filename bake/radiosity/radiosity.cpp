@@ -104,8 +104,8 @@ Status stitch_lightmap(const RadiosityTask& task, Radiosity& light) {
   if (found) light.report.seams = stitch(seams, task.map, at_most, light.pages, task.options.left_of_all);
   if (!found || light.report.seams.late)
     task.context.warning(
-        {"the seams of the lightmap are not stitched: --time left none for that; a longer one stitches them",
-         WarningKind::kTimeOver});
+        "time-over",
+        "the seams of the lightmap are not stitched: --time left none for that; a longer one stitches them");
   light.at_seam = cells_at(seams, light.pages);
   if (before > 0) light.report.seams.energy_change = power() / before - 1;
   return {};
@@ -361,10 +361,10 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
   light.report.rays = rays + quick_rays + light.report.detail.rays;
   if (light.report.assumed > 0)
     context.warning(
-        {fmt::format("{} of {} texels show the light of near ones: --time left none for their own; more time, "
-                     "or a larger --texel, gives it",
-                     light.report.assumed, light.report.texels),
-         WarningKind::kTimeOver});
+        "time-over",
+        fmt::format("{} of {} texels show the light of near ones: --time left none for their own; more time, "
+                    "or a larger --texel, gives it",
+                    light.report.assumed, light.report.texels));
   if (options.hidden == Hidden::kBlack) darken_all_hidden(task, light);
   return light;
 }

@@ -18,11 +18,11 @@ Status find_sharp_light(const RadiosityTask& task, SharpCharts& charts, ShadowLi
   for (const std::uint32_t chart : shadows.left_out) charts.charts[chart].flat = false;
   if (!shadows.left_out.empty())
     task.context.warning(
-        {fmt::format("shadows of points, spots and suns are as coarse as texels on {} of {} flat charts: "
-                     "--time left none for finer ones, or they took too much room",
-                     shadows.left_out.size(),
-                     std::ranges::count_if(charts.charts, &ChartGrid::flat) + std::ssize(shadows.left_out)),
-         WarningKind::kTimeOver});
+        "time-over",
+        fmt::format("shadows of points, spots and suns are as coarse as texels on {} of {} flat charts: "
+                    "--time left none for finer ones, or they took too much room",
+                    shadows.left_out.size(),
+                    std::ranges::count_if(charts.charts, &ChartGrid::flat) + std::ssize(shadows.left_out)));
   return {};
 }
 

@@ -64,7 +64,7 @@ void leave_out_maps(const Warning& why, PlannedReflections& planned) {
   for (FoundReflector& r : planned.all.found.reflectors)
     if (r.way == ReflectorWay::kMaps) r.way = ReflectorWay::kGeometry, r.why = why.text;
   planned.all.curved = {};
-  planned.all.omissions.emplace_back("radiance maps: left out, " + why.text, why.kind);
+  planned.all.omissions.emplace_back("radiance maps: left out, " + why.text, why.code);
 }
 
 void shrink_maps(double seconds, PlannedReflections& planned) {
@@ -110,8 +110,7 @@ Result<double> fit_reflections(const BakeTask& bake, const TimeBudget& budget, P
     ORIEL_TRY(const bool tried, done_in_time(
                                     bake.context, [&] { return budget.left() < until; },
                                     [&] { return time_reflections(bake, dark, planned); }));
-    if (!tried)
-      leave_out_maps({"a few of their pixels already take too long for --time", WarningKind::kTimeOver}, planned);
+    if (!tried) leave_out_maps({"a few of their pixels already take too long for --time", "time-over"}, planned);
     shrink_maps(budget.for_maps(), planned);
   }
   const double field = bake.options.with_transfer && bake.prepared.wants_light_field() ? budget.for_light_field() : 0;

@@ -94,7 +94,7 @@ Result<ReflectedError> judge_light(const LitSurroundings& lit, std::uint32_t ref
   return e;
 }
 
-void tell_dropped(const Accel& accel, std::vector<std::string>& findings) {
+void tell_dropped(const Accel& accel, std::vector<Warning>& findings) {
   const DroppedSamples& dropped = accel.dropped();
   if (dropped.count() == 0) return;
   std::string place = "far from any surface";
@@ -103,11 +103,11 @@ void tell_dropped(const Accel& accel, std::vector<std::string>& findings) {
     place = fmt::format("first at triangle {} of '{}', material '{}'", t - surface.first_triangle, surface.name,
                         accel.scene().materials[surface.material].name);
   }
-  findings.push_back(fmt::format("{} samples of light are left out, which are no numbers: {}", dropped.count(), place));
+  findings.push_back({fmt::format("{} samples of light are left out, which are no numbers: {}", dropped.count(), place),
+                      "dropped-samples"});
 }
 
-void tell_backs(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t seed,
-                std::vector<std::string>& findings) {
+void tell_backs(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t seed, std::vector<Warning>& findings) {
   const Scene& scene = accel.scene();
   std::vector<SeenBack> backs = seen_backs(scene, look_around(accel, eyes, seed));
   if (backs.empty()) return;
@@ -118,11 +118,11 @@ void tell_backs(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t se
     names += fmt::format("{}'{}' ({:.2g} %)", i == 0 ? "" : ", ", scene.surfaces[backs[i].surface].name,
                          100 * backs[i].share);
   if (backs.size() > told) names += fmt::format(" and {} more", backs.size() - told);
-  findings.push_back(
-      fmt::format("of what people see are backs of one-sided surfaces: {}; nothing is drawn there and "
-                  "light ends there: turn them over, mark their materials double-sided, or bake with "
-                  "--double-sided",
-                  names));
+  findings.push_back({fmt::format("of what people see are backs of one-sided surfaces: {}; nothing is drawn there and "
+                                  "light ends there: turn them over, mark their materials double-sided, or bake with "
+                                  "--double-sided",
+                                  names),
+                      "backs-seen"});
 }
 
 Result<double> worst_seen(const ReflectedSurroundings& surroundings, std::uint32_t reflector,

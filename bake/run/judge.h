@@ -23,10 +23,10 @@ Result<ReflectedError> judge_light(const LitSurroundings& lit, std::uint32_t ref
                                    const Stage& stage);
 
 // Samples that were left out, and where to look for the cause.
-void tell_dropped(const Accel& accel, std::vector<std::string>& findings);
+void tell_dropped(const Accel& accel, std::vector<Warning>& findings);
 
 // One-sided surfaces whose backs the eyes (scene space) see: the most seen ones by name.
-void tell_backs(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t seed, std::vector<std::string>& findings);
+void tell_backs(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t seed, std::vector<Warning>& findings);
 
 // What that of the cameras (scene space) which sees least of a reflector sees in its maps: a share of what it sees in
 // it. Error kStopped.

@@ -129,7 +129,8 @@ class Groups {
       if (!surface.group_mark.empty() && std::ranges::find(names_, surface.group_mark) == names_.end())
         without.insert(surface.group_mark);
     for (const std::string& name : without)
-      context.warning(fmt::format("the light group \"{}\" has no lamp: its nodes are there, but none shines", name));
+      context.warning("light-groups",
+                      fmt::format("the light group \"{}\" has no lamp: its nodes are there, but none shines", name));
   }
 
   // A node's lamps, or those with one mesh; what hangs on nothing is alone.
@@ -162,6 +163,7 @@ class Groups {
         const std::string& name = scene_.lamp_motions[static_cast<std::size_t>(m)].name;
         if (lamp.group != kNoGroup)
           context.warning(
+              "light-groups",
               fmt::format("the lamp \"{}\" is animated: it leaves the group \"{}\", which is not, for one of "
                           "its own",
                           lamp.path, names_[lamp.group]));
@@ -175,10 +177,10 @@ class Groups {
     if (names_.empty()) return;
     const auto rest = static_cast<std::uint32_t>(std::min(names_.size(), kMostLightGroups - 1));
     if (names_.size() > kMostLightGroups) {
-      context.warning(
-          fmt::format("found {} light groups, expected at most {}: the lamps of \"{}\" and those after it "
-                      "are switched together, as \"{}\"; --light-groups FILE chooses",
-                      names_.size(), kMostLightGroups, names_[rest], kOtherLamps));
+      context.warning("light-groups",
+                      fmt::format("found {} light groups, expected at most {}: the lamps of \"{}\" and those after it "
+                                  "are switched together, as \"{}\"; --light-groups FILE chooses",
+                                  names_.size(), kMostLightGroups, names_[rest], kOtherLamps));
       for (Lamp& lamp : lamps_)
         if (lamp.group >= rest) lamp.group = kNoGroup;
       names_.resize(rest);
@@ -211,7 +213,8 @@ class Groups {
       if (motions[g].size() == 1)
         scene_.light_groups[g].motion = *motions[g].begin();
       else if (motions[g].size() > 1)
-        context.warning(fmt::format("the light group \"{}\" has lamps that are animated and others: they stand still",
+        context.warning("light-groups",
+                        fmt::format("the light group \"{}\" has lamps that are animated and others: they stand still",
                                     scene_.light_groups[g].name));
     }
   }
@@ -269,8 +272,8 @@ Result<LightGroupOptions> parse_light_groups(const std::string& text) {
 
 Status assign_light_groups(const LightGroupOptions& options, Scene& scene, Context& context) {
   if (options.by == LightGrouping::kOff && !scene.lamp_motions.empty())
-    context.warning(
-        fmt::format("{} lamps are animated: without light groups they stand still", scene.lamp_motions.size()));
+    context.warning("light-groups", fmt::format("{} lamps are animated: without light groups they stand still",
+                                                scene.lamp_motions.size()));
   if (options.by == LightGrouping::kOff && scene.day.empty()) return {};
   Groups groups(scene);
   groups.by_hours();

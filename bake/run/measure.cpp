@@ -20,8 +20,8 @@ Status settle_buried(const MeasureJob& job, Measurement& m, Context& context) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < m.points.size(); ++i) {
     if (m.results[i].buried && !job.points.empty())
-      context.warning(fmt::format("{}:{}: the point lies inside a closed body: it is measured there",
-                                  job.points.string(), m.points[i].line));
+      context.warning("buried-point", fmt::format("{}:{}: the point lies inside a closed body: it is measured there",
+                                                  job.points.string(), m.points[i].line));
     if (m.results[i].buried && job.points.empty()) continue;
     m.points[kept] = m.points[i];
     m.results[kept++] = m.results[i];
@@ -30,8 +30,8 @@ Status settle_buried(const MeasureJob& job, Measurement& m, Context& context) {
     return fail(ErrorCode::kUsage, "--grid " + job.grid.node,
                 "found all {} points inside closed bodies, expected some in the open", m.points.size());
   if (kept < m.points.size())
-    context.warning(fmt::format("--grid {}: left out {} of {} points, which lie inside closed bodies", job.grid.node,
-                                m.points.size() - kept, m.points.size()));
+    context.warning("buried-point", fmt::format("--grid {}: left out {} of {} points, which lie inside closed bodies",
+                                                job.grid.node, m.points.size() - kept, m.points.size()));
   m.points.resize(kept);
   m.results.resize(kept);
   return {};
@@ -41,9 +41,11 @@ void warn_about_noise(const LuxOptions& options, const Measurement& m, Context& 
   if (options.relative_error <= 0) return;
   const auto missed = std::count_if(m.results.begin(), m.results.end(), [](const auto& r) { return !r.converged; });
   if (missed > 0)
-    context.warning(fmt::format(
-        "{} of {} points miss the error of {:.3g} % after {} paths: raise --samples or read their error column", missed,
-        m.points.size(), 100 * options.relative_error, m.results[0].samples));
+    context.warning(
+        "error-missed",
+        fmt::format(
+            "{} of {} points miss the error of {:.3g} % after {} paths: raise --samples or read their error column",
+            missed, m.points.size(), 100 * options.relative_error, m.results[0].samples));
 }
 
 }  // namespace

@@ -28,13 +28,13 @@ void reorder(const std::vector<std::uint32_t>& scene_vertex, CompressedTransfer&
 
 void warn_about(const MoverReport& r, Context& context) {
   if (r.coarse_share > kMostCoarse)
-    context.warning(
-        fmt::format("mover \"{}\": over {:.0f} % of its surface vertices are too far apart for the shadows "
-                    "it casts on itself; a finer mesh shows them",
-                    r.name, 100 * r.coarse_share));
+    context.warning("mover-light",
+                    fmt::format("mover \"{}\": over {:.0f} % of its surface vertices are too far apart for the shadows "
+                                "it casts on itself; a finer mesh shows them",
+                                r.name, 100 * r.coarse_share));
   if (r.compression_error > kMostLost)
-    context.warning(
-        fmt::format("mover \"{}\": compression loses {:.2g} % of the transfer", r.name, 100 * r.compression_error));
+    context.warning("mover-light", fmt::format("mover \"{}\": compression loses {:.2g} % of the transfer", r.name,
+                                               100 * r.compression_error));
 }
 
 class MoverBox {

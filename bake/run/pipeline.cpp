@@ -159,7 +159,7 @@ class Bake {
                           !planned.empty(),
                           !planned.plan.maps.empty(),
                           context_.units != nullptr};
-    for (const std::string& line : idle_options(options_, facts)) context_.warning(line);
+    for (const std::string& line : idle_options(options_, facts)) context_.warning("idle-option", line);
   }
 
   // Sorts the mesh's triangles by what is seen together, where sets pay.
@@ -234,16 +234,16 @@ class Bake {
                 return kept;
               }));
     if (!ledger)
-      result_.omissions.emplace_back("energy ledger: left out, --time was over; a longer one has it",
-                                     WarningKind::kTimeOver);
-    result_.findings = ledger_findings(ledger.value_or(Ledger()));
+      result_.omissions.push_back({"energy ledger: left out, --time was over; a longer one has it", "time-over"});
+    for (std::string& text : ledger_findings(ledger.value_or(Ledger())))
+      result_.findings.push_back({std::move(text), "energy-ledger"});
     return ledger.value_or(Ledger());
   }
 
   Result<BakedReflections> capture_reflections(PlannedReflections planned, const MaterialMaps& materials,
                                                const AssembledMesh& mesh) {
     if (!options_.with_radiance) {
-      result_.omissions.emplace_back("reflections: left out by --only");
+      result_.omissions.push_back({"reflections: left out by --only", "no-reflections"});
       return BakedReflections();
     }
     ORIEL_TRY(BakedReflections reflections, timed_("radiance", [&](std::uint64_t& rays) {
@@ -265,7 +265,7 @@ class Bake {
         context_.finish
             ? Warning("left out, the user asked the bake to finish")
             : Warning(fmt::format("left out, --time was over; {:.0f} s more have them", std::ceil(planned.capture_s)),
-                      WarningKind::kTimeOver);
+                      "time-over");
     return mirror_geometry(std::move(planned), mesh, why);
   }
 
@@ -352,7 +352,7 @@ class Bake {
     pack().provenance = provenance_json(options_, context_.seed, prepared_.imported->inputs);
     judge_time(options_, budget_, result_.times, context_, result_.shortfalls);
     const std::size_t warned = result_.warnings.size();
-    for (const std::string& finding : result_.findings) context_.warning(finding);
+    for (const Warning& finding : result_.findings) context_.warning(finding);
     result_.warnings.erase(result_.warnings.begin() + static_cast<std::ptrdiff_t>(warned),
                            result_.warnings.end());  // findings have a list of their own
     if (context_.units) result_.units = context_.units->share();

@@ -26,13 +26,13 @@ struct BakeResult {
   std::vector<StageTime> times;  // wall clock; not in the pack, whose bytes depend on input and options only
   RadiosityReport radiosity;
   Ledger ledger;
-  UnitShare units;                    // not in the pack either: empty without a store of units
-  std::vector<Warning> omissions;     // what was not modelled, and why
-  std::vector<std::string> findings;  // what is likely wrong with the light, each with its size; warned of
-  std::vector<Warning> warnings;      // all others that were told meanwhile
+  UnitShare units;                 // not in the pack either: empty without a store of units
+  std::vector<Warning> omissions;  // what was not modelled, and why
+  std::vector<Warning> findings;   // what is likely wrong with the light, each with its size; warned of
+  std::vector<Warning> warnings;   // all others that were told meanwhile
   // Why it is less than what was asked for: it ended early, missed an error or a time that was named, or left a stage
   // out for want of time. A bake that ends by its default share of rays has none.
-  std::vector<std::string> shortfalls;
+  std::vector<Warning> shortfalls;
   // By name of a surface or mesh: the glTF node path of the first that is called so.
   std::map<std::string, std::string> node_paths;
   std::vector<std::string> left_out;  // what failed the pack's own checks and is not in it; among the omissions too

@@ -72,16 +72,16 @@ void settle_eye_height(const BakeOptions& options, bool unit_guessed, Context& c
   if (!told) return;
   prepared.walk = prepared.walk.scaled(told->eye_height_m / usual);
   context.warning(
-      {fmt::format("people's eyes are taken to be {:.2f} m over the floor, not {:.1f} m, and their steps and reach to "
-                   "go with it: "
-                   "{} "
-                   "in rooms typically {:.2f} m high; --eye-height {:.1f}m keeps people of usual size, --unit tells "
-                   "another unit",
-                   told->eye_height_m, usual,
-                   told->cameras > 0 ? fmt::format("the scene's {} viewpoints are as high as that", told->cameras)
-                                     : std::string("without a camera"),
-                   told->room_height_m, usual),
-       WarningKind::kEyesGuessed});
+      "eyes-guessed",
+      fmt::format("people's eyes are taken to be {:.2f} m over the floor, not {:.1f} m, and their steps and reach to "
+                  "go with it: "
+                  "{} "
+                  "in rooms typically {:.2f} m high; --eye-height {:.1f}m keeps people of usual size, --unit tells "
+                  "another unit",
+                  told->eye_height_m, usual,
+                  told->cameras > 0 ? fmt::format("the scene's {} viewpoints are as high as that", told->cameras)
+                                    : std::string("without a camera"),
+                  told->room_height_m, usual));
 }
 
 // Where people can be, and pieces of what they see both near and far.
@@ -192,17 +192,17 @@ std::optional<double> guessed_unit(const Accel& accel, double unit_m, Context& c
   if (!guess) return std::nullopt;
   if (guess->metres == 1) {
     context.warning(
-        {fmt::format("the scene's rooms are typically {:.3g} m high, as a storey is in feet, and no camera tells: they "
-                     "stay metres; --unit ft takes the file's numbers as feet, --unit m says that they are metres",
-                     guess->room_height * unit_m),
-         WarningKind::kUnitGuessed});
+        "unit-guessed",
+        fmt::format("the scene's rooms are typically {:.3g} m high, as a storey is in feet, and no camera tells: they "
+                    "stay metres; --unit ft takes the file's numbers as feet, --unit m says that they are metres",
+                    guess->room_height * unit_m));
     return std::nullopt;
   }
   context.warning(
-      {fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
-                   "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
-                   guess->room_height * unit_m, guess->metres * unit_m),
-       WarningKind::kUnitGuessed});
+      "unit-guessed",
+      fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
+                  "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
+                  guess->room_height * unit_m, guess->metres * unit_m));
   return guess->metres * unit_m;
 }
 
@@ -287,9 +287,11 @@ void warn_about_light(const Scene& scene, const LightSet& lights, Context& conte
   double area_m2 = 0;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) area_m2 += triangle_area(scene, t);
   if (const auto outshone = find_outshone(scene, area_m2))
-    context.warning(fmt::format("{}; expected {}: {}", outshone->found, outshone->expected, outshone->fix));
+    context.warning("light-units",
+                    fmt::format("{}; expected {}: {}", outshone->found, outshone->expected, outshone->fix));
   if (lights.empty() && luminance(scene.sky) <= 0)
-    context.warning("the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it is black");
+    context.warning("no-light",
+                    "the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it is black");
 }
 
 }  // namespace oriel

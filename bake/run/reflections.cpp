@@ -209,7 +209,7 @@ Result<PlannedReflections> plan_reflections(const BakeTask& bake, FoundReflectio
     if (!plan && !context.stop && whole.spent() > most) {
       planned.all.found.reflectors = before;
       if (divisor == kFewest) {
-        leave_out_maps({"planning them takes too long for --time", WarningKind::kTimeOver}, planned);
+        leave_out_maps({"planning them takes too long for --time", "time-over"}, planned);
         planned.divisor = divisor, planned.seconds = whole.spent();
       }
       break;
@@ -294,10 +294,10 @@ BakedReflections mirror_geometry(PlannedReflections planned, const AssembledMesh
   }
   if (!planned.plan.maps.empty())
     report.omissions.emplace_back(fmt::format("radiance maps: {}; mirrors are drawn as mirrored geometry", why.text),
-                                  why.kind);
+                                  why.code);
   if (curved > 0)
     report.omissions.emplace_back(
-        fmt::format("surround maps of {} curved reflectors: {}; they show no reflections", curved, why.text), why.kind);
+        fmt::format("surround maps of {} curved reflectors: {}; they show no reflections", curved, why.text), why.code);
   keep(all.found.reflectors, mesh, out.reflectors);
   return out;
 }

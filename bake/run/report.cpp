@@ -1,5 +1,6 @@
 #include "bake/run/report.h"
 
+#include "bake/jobs/unit_cache.h"
 #include "bake/radiosity/texels/frame_error.h"
 #include "bake/run/option_table.h"
 #include "bake/run/version.h"
@@ -326,7 +327,7 @@ std::string plan_json(const BakeFacts& f) {
       {"light_field", light_field_json(f.pack.light_field)},
       {"start", text_of(f.start)},
       {"omitted", texts_of(f.omissions)},
-      {"findings", f.findings},
+      {"findings", texts_of(f.findings)},
       {"warnings", texts_of(f.warnings)},
   };
   return text_of(json);
@@ -338,6 +339,8 @@ std::string provenance_json(const BakeOptions& options, std::uint64_t seed,
   for (const auto& [name, hash] : inputs) files.push_back({{"name", name}, {"xxh3_128", hash}});
   const Json json = {{"tool", "oriel-bake"},
                      {"version", kVersion},
+                     {"build", build_id()},
+                     {"given", options.words},
                      {"options", Json::parse(options_json(options, seed)).value()},
                      {"inputs", files}};
   return text_of(json);

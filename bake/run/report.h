@@ -26,7 +26,7 @@ struct BakeFacts {
   bool cached = true;  // the estimator
   double asked = 0;    // error of the lightmap; 0: none
   Start start = Start::kOfScene;
-  const std::vector<std::string>& findings;
+  const std::vector<Warning>& findings;
   const std::vector<Warning>& warnings;
 };
 

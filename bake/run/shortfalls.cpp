@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kWorse = 1.3;  // times the error that was stated, which is worth a warning
 
-void fall_short(const std::string& why, Context& context, std::vector<std::string>& shortfalls) {
+void fall_short(const Warning& why, Context& context, std::vector<Warning>& shortfalls) {
   shortfalls.push_back(why);
   context.warning(why);
 }
@@ -15,16 +15,16 @@ void fall_short(const std::string& why, Context& context, std::vector<std::strin
 }  // namespace
 
 void judge_error(const BakeOptions& options, const RadiosityReport& report, const TimeBudget& budget, Context& context,
-                 std::vector<std::string>& shortfalls) {
+                 std::vector<Warning>& shortfalls) {
   const double asked = options.radiosity.error, stated = report.relative_error;
   const HeldOutError& c = report.held_out_error;
   if (asked <= 0 || context.finish) return;
   const bool named = options.error_named;
   const auto tell = [&](const std::string& text) {
     if (named) {
-      fall_short(text, context, shortfalls);
+      fall_short({text, "error-missed"}, context, shortfalls);
     } else {
-      context.warning(text);
+      context.warning("error-missed", text);
     }
   };
   if (c.error_low > kWorse * std::max(asked, report.stated()))
@@ -53,25 +53,27 @@ void judge_error(const BakeOptions& options, const RadiosityReport& report, cons
 }
 
 void judge_time(const BakeOptions& options, const TimeBudget& budget, const std::vector<StageTime>& times,
-                Context& context, std::vector<std::string>& shortfalls) {
+                Context& context, std::vector<Warning>& shortfalls) {
   if (!budget.missed()) return;
   const auto longest = std::max_element(times.begin(), times.end(),
                                         [](const StageTime& a, const StageTime& b) { return a.seconds < b.seconds; });
-  fall_short(fmt::format("--time {:.4g} s was missed by {:.3g} s: '{}' alone took {:.3g} s, its first estimate cannot "
-                         "end earlier; a larger --texel takes less",
-                         options.time_s, budget.spent() - options.time_s, longest->stage, longest->seconds),
+  fall_short({fmt::format("--time {:.4g} s was missed by {:.3g} s: '{}' alone took {:.3g} s, its first estimate cannot "
+                          "end earlier; a larger --texel takes less",
+                          options.time_s, budget.spent() - options.time_s, longest->stage, longest->seconds),
+              "time-missed"},
              context, shortfalls);
 }
 
-void judge_stages(const BakeResult& result, Context& context, std::vector<std::string>& shortfalls) {
+void judge_stages(const BakeResult& result, Context& context, std::vector<Warning>& shortfalls) {
   if (context.finish)
     fall_short(
-        fmt::format("the bake ended early, as asked: the pack holds what was there, with the error that is stated{}",
-                    context.units ? "; the same command again goes on from the cache" : ""),
+        {fmt::format("the bake ended early, as asked: the pack holds what was there, with the error that is stated{}",
+                     context.units ? "; the same command again goes on from the cache" : ""),
+         "ended-early"},
         context, shortfalls);
   for (const auto* all : {&result.omissions, &result.warnings})
     for (const Warning& one : *all)
-      if (one.kind == WarningKind::kTimeOver) shortfalls.push_back(one.text);
+      if (one.code == "time-over") shortfalls.push_back(one);
 }
 
 std::function<bool()> refined_enough(const BakeOptions& options, const TimeBudget& budget, double later,

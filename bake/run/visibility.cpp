@@ -173,9 +173,9 @@ Result<SceneSets> bake_visibility(const BakeTask& bake, const SetEyes& onlookers
   SetFinder finder(options, scene, onlookers, seconds, bake.context);
   const StageInputs inputs(bake.context, SurfacesOf{bake.scene()});
   const auto too_long = [&](const char* what) {
-    omissions.emplace_back(
-        fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, std::max(seconds, 0.0)),
-        WarningKind::kTimeOver);
+    omissions.push_back(
+        {fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, std::max(seconds, 0.0)),
+         "time-over"});
   };
   if (why_not.empty()) {
     ORIEL_TRY(const bool done, finder.visible(visible.side, visible.seen, report.lines));

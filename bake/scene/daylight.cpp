@@ -135,7 +135,8 @@ void take_out_suns(Scene& scene, Context& context) {
     if (light.type == LightType::kDirectional) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", light.name);
   if (names.empty()) return;
   std::erase_if(scene.lights, [](const Light& light) { return light.type == LightType::kDirectional; });
-  context.warning(fmt::format("the sun of --day takes the place of the file's directional lights: {}", names));
+  context.warning("sun-replaced",
+                  fmt::format("the sun of --day takes the place of the file's directional lights: {}", names));
 }
 
 }  // namespace
@@ -235,10 +236,10 @@ void add_clear_sky(Scene& scene, Context& context) {
   for (std::size_t texel = 0; texel < radiances.size(); ++texel)
     scene.sky_image.texels[texel] = Vec3(static_cast<float>(radiances[texel]));
   scene.sky = sky_mean(scene.sky_image);
-  context.warning({fmt::format("sky: the sun \"{}\" of {:.3g} lux stands {:.0f}° high and the file has no sky: a clear "
-                               "one of that height is added, {:.3g} lux (--sky none leaves it out)",
-                               sun->name, lux(*sun), elevation_deg, sky_lux),
-                   WarningKind::kSkyAdded});
+  context.warning("sky-added",
+                  fmt::format("sky: the sun \"{}\" of {:.3g} lux stands {:.0f}° high and the file has no sky: a clear "
+                              "one of that height is added, {:.3g} lux (--sky none leaves it out)",
+                              sun->name, lux(*sun), elevation_deg, sky_lux));
 }
 
 Status add_daylight(const DayOptions& options, Scene& scene, Context& context) {
@@ -266,7 +267,7 @@ Status add_daylight(const DayOptions& options, Scene& scene, Context& context) {
   if (lit > kMostDayHours)
     return fail(ErrorCode::kUsage, "--hours", "found {} hours with a sun, expected at most {}: a longer step than {:g}",
                 lit, kMostDayHours, options.step_h);
-  if (!nights.empty()) context.warning("the sun is below the horizon, no light of the day: " + nights);
+  if (!nights.empty()) context.warning("night", "the sun is below the horizon, no light of the day: " + nights);
   take_out_suns(scene, context);
   add_suns(hours, lit, scene);
   add_skies(hours, lit, scene);

@@ -70,7 +70,8 @@ class FieldBake {
     };
     while (probes(cells(spacing)) > std::max<std::size_t>(options_.max_probes, 8)) spacing *= 1.05f;
     if (spacing > options_.spacing_m)
-      context_.warning(fmt::format("light field: {:.3g} m between probes instead of {:.3g} m, for {} of them at most",
+      context_.warning("coarser-probes",
+                       fmt::format("light field: {:.3g} m between probes instead of {:.3g} m, for {} of them at most",
                                    spacing, options_.spacing_m, options_.max_probes));
     field_.bands = options_.bands;
     field_.depth_side = options_.depth_side;

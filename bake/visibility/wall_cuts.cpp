@@ -74,10 +74,9 @@ class WallFinder {
     (void)parallel_for(context_, "walls", parts.size(), [&](std::size_t i) { of_part[i] = cuts_of(parts[i]); });
     if (context_.stop) return fail(ErrorCode::kStopped, "walls", "stopped");
     if (context_.stopped())
-      context_.warning(
-          {"walls: the light of rooms may mix under some of them, which were left out for want of --time; "
-           "a longer one finds them",
-           WarningKind::kTimeOver});
+      context_.warning("time-over",
+                       "walls: the light of rooms may mix under some of them, which were left out for want of --time; "
+                       "a longer one finds them");
     std::vector<ChartCut> cuts;
     for (const auto& own : of_part) cuts.insert(cuts.end(), own.begin(), own.end());
     return cuts;

@@ -1,6 +1,7 @@
 #include "formats/core/file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -87,6 +88,37 @@ Status AtomicFile::commit() {
   if (::rename(temporary_name(path_).c_str(), path_.c_str()) != 0) return failed(path_, "cannot be renamed into place");
   path_.clear();
   return {};
+}
+
+Result<OutputLock> OutputLock::take(const fs::path& path) {
+  const fs::path file = path.string() + ".lock";
+  for (;;) {
+    const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (fd < 0) return OutputLock({}, -1);  // whoever writes tells why not
+    OutputLock lock(file, fd);
+    if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EWOULDBLOCK) return lock;
+      char pid[32] = "";
+      [[maybe_unused]] const ssize_t told = ::pread(fd, pid, sizeof(pid) - 1, 0);
+      lock.path_.clear();
+      return fail(ErrorCode::kIo, path.string(), "is being written by process {}: wait for it, or end it", pid);
+    }
+    // It may have been another's that ended just now, and removed it.
+    struct stat held {
+    }, there{};
+    if (::fstat(fd, &held) == 0 && ::stat(file.c_str(), &there) == 0 && held.st_ino == there.st_ino) {
+      const std::string pid = std::to_string(::getpid());
+      [[maybe_unused]] const bool told = ::ftruncate(fd, 0) == 0 && ::pwrite(fd, pid.data(), pid.size(), 0) > 0;
+      return lock;
+    }
+    lock.path_.clear();
+  }
+}
+
+OutputLock::~OutputLock() {
+  if (fd_ < 0) return;
+  if (!path_.empty()) ::unlink(path_.c_str());
+  ::close(fd_);
 }
 
 Status write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {

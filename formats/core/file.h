@@ -44,6 +44,21 @@ class AtomicFile {
 Status write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Status write_text_atomically(const std::filesystem::path& path, std::string_view text);
 
+// Who writes `path`: one process at a time, by a file beside it that the system unlocks however its process ends.
+class OutputLock {
+ public:
+  // Error kIo where another process holds it, which is named. Where the file system has no locks there is none.
+  static Result<OutputLock> take(const std::filesystem::path& path);
+  OutputLock(OutputLock&& other) noexcept : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, -1)) {}
+  OutputLock& operator=(OutputLock&&) = delete;
+  ~OutputLock();
+
+ private:
+  OutputLock(std::filesystem::path path, int fd) : path_(std::move(path)), fd_(fd) {}
+  std::filesystem::path path_;
+  int fd_ = -1;
+};
+
 // The bytes of a file as they lie in the system's file cache: none is read before somebody looks at it, and none is
 // copied. The file must keep its length while it is mapped, as files that are replaced by renaming do.
 class MappedFile {

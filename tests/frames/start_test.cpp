@@ -29,7 +29,7 @@ class Start : public ::testing::Test {
   FloatImage first_frame(const sample::SampleScene& scene, const std::string& options, DVec3& eye) {
     EXPECT_TRUE(write_file_atomically(folder_ / "scene.glb", *sample::write_glb(scene)));
     EXPECT_EQ(
-        test::run(folder_, "oriel-bake scene.glb -o scene.oriel --only radiosity --verify off --no-cache " + options),
+        test::run(folder_, "oriel-bake scene.glb -o scene.oriel --only radiosity --verify off --cache off " + options),
         0);
     EXPECT_EQ(test::run(folder_, "oriel-play scene.oriel --offscreen --size 160x90 -o first.exr"), 0);
     const auto pack = read_pack(folder_ / "scene.oriel");

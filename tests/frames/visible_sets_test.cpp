@@ -20,7 +20,7 @@ class House : public ::testing::Test {
     ASSERT_EQ(test::run(folder_, "oriel-scenes house --triangles 12000 --reflectors 0 -o house.glb"), 0);
     ASSERT_EQ(test::run(folder_,
                         "oriel-bake house.glb -o house.oriel --pvs on --texel 2m --samples 1 --verify off "
-                        "--max-reflectors 0 --no-cache"),
+                        "--max-reflectors 0 --cache off"),
               0);
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }

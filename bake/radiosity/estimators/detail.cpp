@@ -225,7 +225,7 @@ Status add_detail(const RadiosityTask& task, const TexelLight& texel_light, Radi
                 .floor = floor_of(task, light, texel_light.importance),
                 .most_side = std::min(task.options.detail, most_side(task.atlas))};
   if (goal.most_side < 2) {
-    task.context.warning("the lightmap's pages are too large for finer cells");
+    task.context.warning("coarser-detail", "the lightmap's pages are too large for finer cells");
     return {};
   }
   goal.most_points = std::max(kFewPoints, kPointsATexel * texel_light.texels.count());

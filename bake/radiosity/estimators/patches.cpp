@@ -249,6 +249,7 @@ void Solver::warn_of_no_end(Context& context, const Sweeps& result) const {
       absorbed += flux * (DVec3(1) - DVec3(texels_.albedo[t]));
     }
   context.warning(
+      "light-lingers",
       fmt::format("the light hardly dies away: after {} bounces {:.4g} lm fall on the surfaces and {:.4g} lm of them "
                   "are absorbed; what these bounces bring is baked. Lower albedos of 1, or let some light out",
                   result.count, incident.g, absorbed.g));

@@ -54,6 +54,7 @@ std::optional<PreviousLight> load_previous_light(Context& context, const Hash128
     if (archive.complete() && is_whole(previous, directional)) return previous;
   }
   context.warning(
+      "nothing-to-reuse",
       "--reuse-error: the cache knows no whole bake with these options of a scene of as many triangles on as large "
       "pages: all is baked");
   return std::nullopt;

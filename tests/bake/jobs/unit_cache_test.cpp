@@ -25,7 +25,7 @@ class UnitCacheTest : public ::testing::Test {
  protected:
   void warn(const std::string& text) { warnings_.push_back(text); }
   UnitCache cache(const std::string& program = "me") {
-    return {folder_.path(), program, [this](const std::string& text) { warn(text); }};
+    return {folder_.path(), program, [this](const Warning& told) { warn(told.text); }};
   }
   // The files of units.
   std::vector<fs::path> files() const {
@@ -87,7 +87,7 @@ TEST_F(UnitCacheTest, TrustsNoByteThatIsNotAsWritten) {
 }
 
 TEST_F(UnitCacheTest, AFolderThatCannotBeWrittenWarnsOnceAndHindersNothing) {
-  UnitCache nowhere("/proc/no/such/folder", "me", [this](const std::string& text) { warn(text); });
+  UnitCache nowhere("/proc/no/such/folder", "me", [this](const Warning& told) { warn(told.text); });
   for (std::uint64_t i = 0; i < 3; ++i) {
     EXPECT_TRUE(nowhere.claim({i, 0}));
     nowhere.keep({i, 0}, unit_of("light"));

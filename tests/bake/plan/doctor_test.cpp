@@ -70,13 +70,13 @@ TEST(TellBacks, NamesThoseSeenMostAndCountsTheRest) {
   }
   const Scene scene = parts.finish();
   const Accel accel = *Accel::build(scene);
-  std::vector<std::string> findings;
+  std::vector<Warning> findings;
   tell_backs(accel, std::vector<Vec3>(1024, Vec3(0, -0.5f, 0)), 1, findings);
   ASSERT_EQ(findings.size(), 1u);
   // 4 asin 0.8 sr less what the next sheet fills, 4 asin 0.51.
-  EXPECT_NE(findings[0].find("'sheet 0' (12 %)"), std::string::npos) << findings[0];
-  EXPECT_LT(findings[0].find("'sheet 0'"), findings[0].find("'sheet 3'")) << findings[0];
-  EXPECT_NE(findings[0].find("%) and 1 more;"), std::string::npos) << findings[0];
+  EXPECT_NE(findings[0].text.find("'sheet 0' (12 %)"), std::string::npos) << findings[0].text;
+  EXPECT_LT(findings[0].text.find("'sheet 0'"), findings[0].text.find("'sheet 3'")) << findings[0].text;
+  EXPECT_NE(findings[0].text.find("%) and 1 more;"), std::string::npos) << findings[0].text;
   findings.clear();
   tell_backs(accel, std::vector<Vec3>(1024, Vec3(0, -2, 0)), 1, findings);
   EXPECT_TRUE(findings.empty()) << "from below all are fronts";

@@ -186,7 +186,7 @@ TEST(MirrorGeometry, IsWhatMirrorsAreWithoutTimeForMaps) {
   AssembledMesh mesh;
   mesh.first_index = {0, 3};
   mesh.mesh.indices = {0, 1, 2, 2, 1, 3};
-  const BakedReflections pack = mirror_geometry(std::move(planned), mesh, {"no time", WarningKind::kTimeOver});
+  const BakedReflections pack = mirror_geometry(std::move(planned), mesh, {"no time", "time-over"});
   const ReflectionReport& report = pack.report;
   ASSERT_EQ(pack.reflectors.size(), 1u);
   EXPECT_EQ(pack.reflectors[0].map_count, 0u);
@@ -195,7 +195,7 @@ TEST(MirrorGeometry, IsWhatMirrorsAreWithoutTimeForMaps) {
   EXPECT_TRUE(pack.radiance_maps.empty() && pack.curved_reflectors.empty());
   EXPECT_EQ(report.ways, std::vector<std::string>{"no time"});
   ASSERT_EQ(report.omissions.size(), 2u) << "that maps are left out, and curved reflectors";
-  for (const Warning& omission : report.omissions) EXPECT_EQ(omission.kind, WarningKind::kTimeOver);
+  for (const Warning& omission : report.omissions) EXPECT_EQ(omission.code, WarningCode("time-over"));
 }
 
 TEST(FittingMaps, AreHalvedUntilTheirCaptureFits) {

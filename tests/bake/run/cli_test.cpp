@@ -76,13 +76,13 @@ TEST_F(BakeCli, ExitCodesAndMessages) {
 TEST_F(BakeCli, SameBytesForAnyThreads) {
   ASSERT_EQ(run("oriel-scenes gallery -o gallery.glb"), 0) << log();
   const std::string options = " --texel 50cm --samples 16 --reflections maps --map-resolution 64 --quiet";
-  ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o one.oriel --threads 1" + options), 0) << log();
-  ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o two.oriel --threads 2" + options), 0) << log();
+  ASSERT_EQ(run("oriel-bake gallery.glb --cache off -o one.oriel --threads 1" + options), 0) << log();
+  ASSERT_EQ(run("oriel-bake gallery.glb --cache off -o two.oriel --threads 2" + options), 0) << log();
   EXPECT_EQ(log(), "") << "--quiet says nothing unless there is something to warn of";
   const Bytes one = *read_file(folder_ / "one.oriel");
   EXPECT_EQ(one, *read_file(folder_ / "two.oriel"));
   EXPECT_GT(read_pack(folder_ / "one.oriel")->radiance_maps.size(), 10u);
-  ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o other.oriel --seed 2" + options), 0) << log();
+  ASSERT_EQ(run("oriel-bake gallery.glb --cache off -o other.oriel --seed 2" + options), 0) << log();
   EXPECT_NE(one, *read_file(folder_ / "other.oriel")) << "the comparison must be able to fail";
 }
 
@@ -306,7 +306,11 @@ TEST(Quantities, ParseAndRefuse) {
   EXPECT_EQ(*parse_color("5"), Vec3(5));
   EXPECT_EQ(*parse_color("1,2,3"), Vec3(1, 2, 3));
   EXPECT_DOUBLE_EQ(*parse_share("0.5%"), 0.005);
-  for (const char* bad : {"", "0%", "-1%", "%", "nan%", "1x"}) EXPECT_FALSE(parse_share(bad)) << bad;
+  EXPECT_DOUBLE_EQ(*parse_share("0.5"), 0.5);
+  EXPECT_DOUBLE_EQ(*parse_share("120 %"), 1.2);
+  for (const char* bad : {"", "0%", "-1%", "%", "nan%", "1x", "0"}) EXPECT_FALSE(parse_share(bad)) << bad;
+  EXPECT_EQ(parse_share("2").error().message, "found 2, expected a share: write 2% or 0.02");
+  EXPECT_EQ(parse_share("0.7").error().message, "found 0.7, expected a share: write 0.7% or 70%");
   EXPECT_EQ(parse_grid("a,b,1m,0")->node, "a,b");
   for (const char* bad : {"", "floor", "floor,1m", ",1m,1m", "floor,0m,1m", "floor,1m,-1m", "floor,1,1"})
     EXPECT_FALSE(parse_grid(bad)) << bad;
@@ -336,12 +340,15 @@ TEST_F(BakeCli, MemoryLimitMakesTexelsCoarserOrNamesALengthThatFits) {
   EXPECT_EQ(run(bake + " " + found.substr(at + 1, end - at - 1)), 0) << log();
 }
 
-TEST_F(BakeCli, StrictKeepsThePackAndSaysWhatWasFound) {
+TEST_F(BakeCli, SoundLightIsRequiredAndWhatWasFoundIsTold) {
   // Texels of a metre in a room of half a metre: the lightmap cannot hold what particles find.
   const std::string bake =
       "oriel-bake cornell.glb -o a.oriel --unit m --only radiosity --samples 2 --texel 1m --verify off";
-  ASSERT_EQ(run(bake + " --strict"), 5) << log();
-  EXPECT_NE(log().find("a.oriel: was written; --strict: the lightmap has"), std::string::npos) << log();
+  ASSERT_EQ(run(bake + " --require sound"), 7) << log();
+  EXPECT_NE(log().find("misses --require sound: the lightmap has"), std::string::npos) << log();
+  EXPECT_FALSE(fs::exists(folder_ / "a.oriel"));
+  ASSERT_EQ(run(bake + " --require sound --keep partial"), 7) << log();
+  EXPECT_NE(log().find("a.oriel: was written, but misses"), std::string::npos) << log();
   EXPECT_TRUE(read_pack(folder_ / "a.oriel"));
   EXPECT_EQ(run(bake), 0) << "a finding is fatal only where it is asked to be";
 }

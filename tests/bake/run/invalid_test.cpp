@@ -37,7 +37,7 @@ class InvalidScenes : public ::testing::Test {
   void expect_refusal(const fs::path& scene) const {
     const auto pack = folder_.path() / "out.oriel", log = folder_.path() / "log";
     const std::string command = "'" ORIEL_BIN_DIR "/oriel-bake' '" + scene.string() + "' -o '" + pack.string() +
-                                "' --no-cache >'" + log.string() + "' 2>&1 </dev/null";
+                                "' --cache off >'" + log.string() + "' 2>&1 </dev/null";
     const int status = std::system(command.c_str());
     const Bytes bytes = read_file(log).value_or(Bytes{});
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -19,7 +19,7 @@ TEST(Landscape, ARoomInItHasAllItsLight) {
   fs::create_directories(folder);
   const std::string line = fmt::format(
       "cd '{0}' && '{1}/oriel-scenes' dome -o dome.glb > log && '{1}/oriel-bake' dome.glb -o dome.oriel --error 10% "
-      "--only radiosity --no-cache >> log 2>&1",
+      "--only radiosity --cache off >> log 2>&1",
       folder.string(), ORIEL_BIN_DIR);
   ASSERT_EQ(std::system(line.c_str()), 0);
   const auto pack = read_pack(folder / "dome.oriel");

@@ -1,4 +1,5 @@
 // How a bake ended, as exit code, as report and as log: for pipelines.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,6 +9,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "bake/jobs/context.h"
+#include "formats/core/file.h"
 #include "formats/pack/reader.h"
 #include "tests/support/json_schema.h"
 #include "tests/support/temporary_folder.h"
@@ -34,7 +37,7 @@ class BakeOutcome : public ::testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   int bake(const std::string& options) const {
-    return run("oriel-bake cornell.glb -o a.oriel --report report.json --no-cache " + options);
+    return run("oriel-bake cornell.glb -o a.oriel --report report.json --cache off " + options);
   }
   std::string log() const { return text_of(folder_.path() / "log"); }
   // Which fits its schema.
@@ -85,10 +88,123 @@ TEST_F(BakeOutcome, ANamedErrorOrTimeThatIsMissedIsSix) {
   EXPECT_EQ(r["shortfalls"][0]["kind"], "shortfall");
   EXPECT_NE(r["shortfalls"][0]["fix"], "") << r["shortfalls"][0];
   EXPECT_TRUE(read_pack(folder_.path() / "a.oriel")) << "the pack is there";
-  ASSERT_EQ(bake(hurried + "--accept-partial"), 0) << log();
+  ASSERT_EQ(bake(hurried + "--require nothing"), 0) << log();
   r = report();
   EXPECT_EQ(r["status"], "partial");
   EXPECT_EQ(r["exit_code"], 0);
+}
+
+const char* const kQuick = "--texel 20cm --samples 16 --only radiosity --quiet ";
+
+// Exit code 7 and no pack, which a build system would believe.
+TEST_F(BakeOutcome, WhatIsRequiredButMissingIsSeven) {
+  const fs::path pack = folder_.path() / "a.oriel";
+  ASSERT_EQ(bake(kQuick + std::string("--emission-scale 0 --require light")), 7) << log();
+  EXPECT_NE(log().find("[no-light]"), std::string::npos) << log();
+  EXPECT_EQ(report()["status"], "failed");
+  EXPECT_EQ(report()["exit_code"], 7);
+  ASSERT_EQ(bake(kQuick + std::string("--require 'error<=0.1%'")), 7) << log();
+  EXPECT_NE(log().find("found an error of"), std::string::npos) << log();
+  EXPECT_FALSE(fs::exists(pack));
+  ASSERT_EQ(bake(kQuick + std::string("--require 'error<=2'")), 1) << log();
+  EXPECT_NE(log().find("write 2% or 0.02"), std::string::npos) << log();
+  ASSERT_EQ(bake(kQuick + std::string("--require 'error<=90%,light,textures,reflections'")), 7)
+      << "--only leaves them out";
+  ASSERT_EQ(bake(kQuick + std::string("--require 'error<=90%,light,textures'")), 0) << log();
+  EXPECT_TRUE(fs::exists(pack));
+  fs::remove(pack);
+  ASSERT_EQ(bake("--texel 1cm --time 1s --error 0.1% --quiet --keep none"), 6) << log();
+  EXPECT_FALSE(fs::exists(pack));
+}
+
+TEST_F(BakeOutcome, WarningsHaveCodesThatCanBeErrors) {
+  ASSERT_EQ(bake("--texel 20cm --samples 16 --only radiosity --json-log"), 0) << log();
+  EXPECT_NE(log().find("\"id\":\"unit-guessed\""), std::string::npos) << log();
+  EXPECT_EQ(report()["warnings"][0]["id"], "unit-guessed");
+  fs::remove(folder_.path() / "a.oriel");
+  ASSERT_EQ(bake(std::string(kQuick) + "-W error=night,unit-guessed"), 7) << log();
+  EXPECT_NE(log().find("[unit-guessed]: expected none"), std::string::npos) << log();
+  EXPECT_FALSE(fs::exists(folder_.path() / "a.oriel"));
+  ASSERT_EQ(bake(std::string(kQuick) + "-W error=unit-gessed"), 1) << log();
+  EXPECT_NE(log().find("\"unit-guessed\""), std::string::npos) << log();
+}
+
+// Which the type of a warning asks for; here: each is known to the manual, in order, and to some source.
+TEST(WarningCodes, TheManualListsAllInUse) {
+  const auto text_below = [](const char* folder, const char* ending) {
+    std::string all;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ORIEL_SOURCE_DIR) / folder))
+      if (entry.path().extension() == ending) all += text_of(entry.path());
+    return all;
+  };
+  const std::string manual = text_of(fs::path(ORIEL_SOURCE_DIR) / "docs/pipelines.md"),
+                    sources = text_below("bake", ".cpp") + text_below("trade", ".cpp") + text_below("bake", ".h");
+  std::size_t last = 0;
+  std::istringstream codes{std::string(kWarningCodes)};
+  for (std::string code; codes >> code;) {
+    const std::size_t at = manual.find(fmt::format("`{}`", code));
+    ASSERT_NE(at, std::string::npos) << code;
+    EXPECT_GT(at, last) << code;
+    last = at;
+    const std::string used = fmt::format("\"{}\"", code);
+    EXPECT_NE(sources.find(used), std::string::npos) << code << " is not used";
+  }
+}
+
+TEST_F(BakeOutcome, WhatIsUpToDateIsNotBaked) {
+  const fs::path pack = folder_.path() / "a.oriel";
+  const auto baked = [&](const std::string& options, const std::string& texel = "20cm") {
+    EXPECT_EQ(
+        run("oriel-bake cornell.glb -o a.oriel --report report.json --samples 16 --texel " + texel + " " + options), 0)
+        << log();
+    EXPECT_EQ(report()["status"], "complete");
+    return log().find("is up to date") == std::string::npos;
+  };
+  EXPECT_TRUE(baked(""));
+  const auto written = fs::last_write_time(pack);
+  EXPECT_FALSE(baked(""));
+  EXPECT_GT(fs::last_write_time(pack), written) << "make asks for that";
+  EXPECT_FALSE(baked("", "0.2m")) << "the same in other words";
+  EXPECT_TRUE(baked("--cache off"));
+  EXPECT_TRUE(baked("--seed 2"));
+  EXPECT_TRUE(baked("--seed 2 --require light")) << "nobody asked before";
+  EXPECT_FALSE(baked("--seed 2 --require light"));
+  fs::resize_file(pack, fs::file_size(pack) - 1);
+  EXPECT_TRUE(baked("--seed 2"));
+  const std::string before = text_of(folder_.path() / "cornell.glb");
+  std::ofstream(folder_.path() / "cornell.glb", std::ios::app) << '\0';
+  EXPECT_TRUE(baked("--seed 2")) << "another file";
+}
+
+TEST_F(BakeOutcome, AKeyNamesAllThatABakeFollowsFrom) {
+  const auto key = [&](const std::string& options) {
+    EXPECT_EQ(run("oriel-bake key cornell.glb " + options + " >key"), 0) << log();
+    const std::string found = text_of(folder_.path() / "key");
+    EXPECT_EQ(found.size(), 33u) << found;
+    return found;
+  };
+  const std::string first = key("--texel 10cm");
+  EXPECT_EQ(key("--texel 0.1m --threads 1"), first);
+  EXPECT_NE(key("--texel 9cm"), first);
+  EXPECT_NE(key("--texel 10cm --seed 2"), first);
+  std::ofstream(folder_.path() / "cornell.glb", std::ios::app) << '\0';
+  EXPECT_NE(key("--texel 10cm"), first);
+  ASSERT_EQ(run("oriel-bake --version >version"), 0);
+  EXPECT_THAT(text_of(folder_.path() / "version"), ::testing::ContainsRegex("commit .*, build [0-9a-f]+, "));
+}
+
+TEST_F(BakeOutcome, TwoBakesIntoOneFileAreTold) {
+  const fs::path pack = folder_.path() / "a.oriel";
+  {
+    const auto lock = OutputLock::take(pack);
+    ASSERT_TRUE(lock);
+    ASSERT_EQ(bake(kQuick), 2);
+    EXPECT_NE(log().find(fmt::format("is being written by process {}", ::getpid())), std::string::npos) << log();
+    EXPECT_FALSE(fs::exists(pack));
+  }
+  std::ofstream(folder_.path() / "a.oriel.lock") << "1";  // as a process leaves it that was killed
+  ASSERT_EQ(bake(kQuick), 0) << log();
+  EXPECT_FALSE(fs::exists(folder_.path() / "a.oriel.lock"));
 }
 
 TEST_F(BakeOutcome, TheReportIsThereOnFailureToo) {

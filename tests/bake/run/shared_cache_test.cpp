@@ -52,7 +52,7 @@ TEST_F(SharedCache, HoldsForAnyOptions) {
     ASSERT_EQ(run("oriel-bake plan --quiet --cache shared --json shared.json " + options), 0) << text_of("log");
     EXPECT_NE(prediction("alone.json"), "");
     EXPECT_EQ(prediction("alone.json"), prediction("shared.json"));
-    ASSERT_EQ(run("oriel-bake --quiet --no-cache -o alone.oriel " + options), 0) << text_of("log");
+    ASSERT_EQ(run("oriel-bake --quiet --cache off -o alone.oriel " + options), 0) << text_of("log");
     ASSERT_EQ(run("oriel-bake --quiet --cache shared -o shared.oriel " + options), 0) << text_of("log");
     EXPECT_TRUE(text_of("alone.oriel") == text_of("shared.oriel"));
   }

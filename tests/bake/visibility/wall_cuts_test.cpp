@@ -115,7 +115,7 @@ TEST(WallCuts, EndEarlyWithAWordAndStop) {
     EXPECT_TRUE(cuts->empty());
   }
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0].kind, WarningKind::kTimeOver);
+  EXPECT_EQ(warnings[0].code, WarningCode("time-over"));
   EXPECT_EQ(find_wall_cuts(accel, 1, context)->size(), 1u);
   EXPECT_EQ(warnings.size(), 1u);
   context.stop = true;

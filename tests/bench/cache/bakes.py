@@ -44,7 +44,9 @@ class Bakes:
         return [self.tool("oriel-bake"), *words, "--threads", str(self.threads), *self.options]
 
     def start(self, *more):
-        """A bake of pack.oriel."""
+        """A bake of pack.oriel, not there before: what is up to date is not baked."""
+        if os.path.exists(self.at("pack.oriel")):
+            os.remove(self.at("pack.oriel"))
         return subprocess.Popen(self.command(self.scene, "-o", self.at("pack.oriel"), "--quiet", *more))
 
     def finish(self, *more):

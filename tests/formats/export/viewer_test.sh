@@ -17,7 +17,7 @@ node "$test/robust_test.mjs" "$work/whole"
 node "$test/fuzz_pieces.mjs" "$work/whole" 3000 || [ $? = 77 ]
 
 "$bin/oriel-scenes" gallery -o "$work/a.glb" >/dev/null
-"$bin/oriel-bake" "$work/a.glb" -o "$work/a.oriel" --texel 40cm --error 20% --accept-partial --light-groups each >/dev/null 2>&1
+"$bin/oriel-bake" "$work/a.glb" -o "$work/a.oriel" --texel 40cm --error 20% --require nothing --light-groups each >/dev/null 2>&1
 
 "$bin/oriel-inspect" web "$work/a.oriel" -o "$work/web" >/dev/null 2>&1
 

@@ -142,7 +142,7 @@ std::vector<std::string> check_bake(const std::filesystem::path& oriel_bake, con
   std::filesystem::create_directories(folder);
   if (const Status status = write_file_atomically(glb, scene.glb); !status) return {status.error().text()};
   const Ran ran = run_limited({oriel_bake.string(), glb.string(), "-o", pack.string(), "--report", report.string(),
-                               "--no-cache", "--accept-partial", "--time", fmt::format("{}s", limits.time_s)},
+                               "--cache", "off", "--require", "nothing", "--time", fmt::format("{}s", limits.time_s)},
                               folder / "log", 5 * limits.time_s + 60);
   std::vector<std::string> wrong = check_run(ran, limits);
   if (ran.code == 0) {
