@@ -11,13 +11,14 @@ constexpr double kGrazing = 1e-4;  // sine of the least height of a sun over a s
 
 }  // namespace
 
-ShadowBeam::ShadowBeam(const Light& light, const std::array<DVec3, 4>& corners, const DVec3& normal, double level)
+ShadowBeam::ShadowBeam(const Light& light, const std::array<DVec3, 4>& corners, const DVec3& normal, double level,
+                       double wider)
     : corners_(corners),
       normal_(normal),
       middle_(0.25 * (corners[0] + corners[1] + corners[2] + corners[3])),
       lamp_(light.type == LightType::kDirectional ? -DVec3(light.direction) : DVec3(light.position)),
       sun_(light.type == LightType::kDirectional),
-      tangent_(sun_ ? std::tan(double{light.angular_radius_rad}) : 0),
+      tangent_(sun_ ? wider * std::tan(double{light.angular_radius_rad}) : 0),
       level_(level),
       reach_(0.5 * std::max(glm::distance(corners[0], corners[2]), glm::distance(corners[1], corners[3]))),
       top_(sun_ ? std::numeric_limits<double>::infinity() : height(lamp_)) {

@@ -14,8 +14,9 @@ using BeamTriangle = std::array<DVec3, 3>;
 class ShadowBeam {
  public:
   // corners: in order around; normal: unit, where the parallelogram is lit from. level: heights up to which things lie
-  // in its plane, m.
-  ShadowBeam(const Light& light, const std::array<DVec3, 4>& corners, const DVec3& normal, double level);
+  // in its plane, m. wider: how many times a sun's disk.
+  ShadowBeam(const Light& light, const std::array<DVec3, 4>& corners, const DVec3& normal, double level,
+             double wider = 1);
 
   bool faces_lamp() const { return faces_; }
   bool may_meet(const TreeBox& box) const;

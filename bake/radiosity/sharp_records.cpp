@@ -10,7 +10,7 @@ namespace oriel {
 
 std::size_t SharpRecord::words() const {
   std::size_t sum = is_split() ? 5 : 1;
-  for (const LampShine& shine : shines) sum += 2 + shine.casters.size() + (shine.screen ? 1 : 0);
+  for (const LampShine& shine : shines) sum += 2 + shine.casters.size() + shine.screens.size();
   for (const auto& quarter : quarters) sum += quarter ? quarter->words() : 0;
   return sum;
 }
@@ -50,15 +50,15 @@ std::uint32_t SharpWriter::place_of(const SharpRecord& record) {
 
 void SharpWriter::add(const LampShine& shine, std::vector<std::uint32_t>& words) {
   const bool tinted = shine.tint != Vec3(1);
-  words.push_back(
-      SharpShine{shine.lamp, tinted, static_cast<std::uint32_t>(shine.casters.size() + (shine.screen ? 1 : 0))}.code());
+  const std::size_t triangles = shine.casters.size() + shine.screens.size();
+  words.push_back(SharpShine{shine.lamp, tinted, static_cast<std::uint32_t>(triangles)}.code());
   if (tinted) words.push_back(rgb9e5_from_rgb(shine.tint));
   for (std::size_t i = 0; i < shine.casters.size(); ++i)
     words.push_back(number_of(shine.casters[i]) | std::uint32_t{shine.edges[i]} << kSharpEdgeShift);
-  if (!shine.screen) return;
-  words.push_back(static_cast<std::uint32_t>(light_.triangles.size()) | 1u << kSharpEdgeShift);
-  const BeamTriangle& t = *shine.screen;
-  light_.triangles.push_back({Vec3(t[0]), Vec3(t[1]), Vec3(t[2])});
+  for (const auto& [t, edges] : shine.screens) {
+    words.push_back(static_cast<std::uint32_t>(light_.triangles.size()) | std::uint32_t{edges} << kSharpEdgeShift);
+    light_.triangles.push_back({Vec3(t[0]), Vec3(t[1]), Vec3(t[2])});
+  }
 }
 
 std::uint32_t SharpWriter::number_of(std::uint32_t caster) {

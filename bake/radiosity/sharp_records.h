@@ -3,9 +3,9 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <unordered_map>
 
+#include "bake/radiosity/screen_fit.h"
 #include "bake/radiosity/shadow_casters.h"
 #include "formats/assets/sharp_light.h"
 
@@ -17,7 +17,7 @@ struct LampShine {
   Vec3 tint{1};
   std::vector<std::uint32_t> casters;  // of the scene, with the bits of their edges beside
   std::vector<std::uint8_t> edges;
-  std::optional<BeamTriangle> screen;  // stands for all that is in the way; its first edge is the shadow's
+  std::vector<Screen> screens;  // stand for all that is in the way
 };
 struct SharpRecord {
   std::vector<LampShine> shines;

@@ -10,18 +10,20 @@
 #include "bake/radiosity/texels/lightmap_scene.h"
 #include "bake/radiosity/texels/sharp_charts.h"
 #include "bake/trace/punctual.h"
+#include "bake/trace/sampler.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 
 inline constexpr std::uint32_t kTile = 16;  // texels a side, that are looked at together first
 inline constexpr std::size_t kListed = 4,
-                             kListedAtLast = 16;  // triangles for one lamp: with more, quarters have fewer each
-inline constexpr std::size_t kMostOfTexel = 256;  // words: with more it is made again with fewer quarters
-inline constexpr int kFilterSplits = 3;           // where cut-outs or the rims of panes need rays: eighths of a texel
+                             kListedAtLast = 16;   // triangles for one lamp: with more, quarters have fewer each
+inline constexpr std::size_t kMostOfTexel = 1024;  // words: with more it is made again with fewer quarters
+inline constexpr int kFilterSplits = 3;            // where cut-outs or the rims of panes need rays: eighths of a texel
 inline constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
 inline constexpr std::uint32_t kRaysOfEdge = 8;          // a side, that a screen's edge is fitted to
-inline constexpr float kLitShare = 0.5f;                 // of the most that arrives: less is neither lit nor dark
+inline constexpr double kWider = 1.25;    // squares and suns in which casters are sought: what rays just miss shows
+inline constexpr float kLitShare = 0.5f;  // of the most that arrives: less is neither lit nor dark
 inline constexpr double kParted = 0.4;  // of a square: from the middle of what is lit to that of what is dark, half for
                                         // an edge, a third for a penumbra
 inline constexpr double kScreen = 4, kOver = 8;  // half a screen's edge in squares; its height in levels
@@ -90,6 +92,10 @@ class TileLister {
     return scene_.transport.accel.scene().lights[sharp_.lights[lamp]];
   }
 
+  static bool has_disk(const oriel::Light& light) {
+    return light.type == LightType::kDirectional && light.angular_radius_rad > 0;
+  }
+
   // Of the chart itself, or its other side.
   bool is_own(std::uint32_t t) const {
     const std::vector<std::uint32_t>& twin = scene_.transport.accel.scene().twin;
@@ -98,11 +104,13 @@ class TileLister {
   }
 
   ShadowBeam beam_to(std::uint32_t lamp, const Square& s) const {
-    const DVec2 &a = s.lower, b = s.lower + s.side;
+    const double wider = has_disk(light_of(lamp)) ? kWider : 1, more = 0.5 * (wider - 1) * s.side;
+    const DVec2 a = s.lower - more, b = s.lower + s.side + more;
     return {light_of(lamp),
             {chart_.at(a), chart_.at({b.x, a.y}), chart_.at(b), chart_.at({a.x, b.y})},
             chart_.normal,
-            level_};
+            level_,
+            wider};
   }
 
   bool is_beyond_cone(std::uint32_t lamp, const Square& s) const {
@@ -212,16 +220,50 @@ class TileLister {
       edges = edges_of_filters = true;
     }
     const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits);
-    if (splits > 0 && !edges_of_filters && shine.casters.size() <= (last ? kListedAtLast : kListed)) {
-      if (filters) shine.tint = rays_to(square, shine.lamp, kRays).most;  // of panes that reach beyond the square
-      if (shine.tint != Vec3(0)) {
-        if (filters) list_opaque(shine);
-        return {Light::kSettled, std::move(shine), {}};
+    const auto is_list = [&](std::size_t most) {
+      return splits > 0 && !edges_of_filters && shine.casters.size() <= most;
+    };
+    if (is_list(kListed) && list(square, filters, shine)) return {Light::kSettled, std::move(shine), {}};
+    if (splits > 0 && !patterned)
+      if (std::optional<Look> fit = fitted(square, beam, shine)) return std::move(*fit);
+    if (!last) return {Light::kOpen, {}, std::move(shine.casters)};
+    if (is_list(kListedAtLast) && list(square, filters, shine)) return {Light::kSettled, std::move(shine), {}};
+    return patterned ? arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean) : screened(square, lamp.lamp);
+  }
+
+  // Whether light comes past what is opaque of it; panes that reach beyond the square become its tint.
+  bool list(const Square& square, bool filters, LampShine& shine) {
+    if (!filters) return true;
+    shine.tint = rays_to(square, shine.lamp, kRays).most;
+    if (shine.tint == Vec3(0)) return false;
+    list_opaque(shine);
+    return true;
+  }
+
+  // Of a sun whose penumbrae are wider than the square: few triangles between real edges.
+  std::optional<Look> fitted(const Square& square, const ShadowBeam& beam, const LampShine& shine) {
+    if (!has_disk(light_of(shine.lamp))) return std::nullopt;
+    const DVec3 corner = chart_.at(square.lower), middle = chart_.at(square.lower + 0.5 * square.side),
+                other = chart_.at(square.lower + DVec2(square.side, 0));
+    ScreenFit fit(light_of(shine.lamp), middle, std::max(glm::distance(corner, middle), glm::distance(other, middle)));
+    for (const std::uint32_t t : shine.casters)
+      for (std::size_t k = 0; k < 3 && !casters_.is_filter(t); ++k) {
+        const auto& triangle = casters_.triangle(t);
+        const DVec3 &a = triangle[k], &b = triangle[(k + 1) % 3];
+        if (casters_.ends_shadow(t, k, shine.lamp) && beam.may_meet(a, b)) fit.add_edge(a, b, triangle[(k + 2) % 3]);
       }
+    if (!fit.is_soft()) return std::nullopt;
+    const Rays rays = rays_to(square, shine.lamp, kFitSide, kWider);
+    std::bitset<kFitRays> lit;
+    for (std::size_t i = 0; i < kFitRays; ++i) {
+      if (is_dim(rays, i)) return std::nullopt;
+      lit[i] = rays.lit[i] > 0;
     }
-    if (last)
-      return patterned ? arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean) : screened(square, lamp.lamp);
-    return {Light::kOpen, {}, std::move(shine.casters)};
+    if (lit.none()) return Look{};
+    std::optional<std::vector<Screen>> screens = fit.fit(rays.rays, lit);
+    if (!screens) return std::nullopt;
+    const Vec3 tint = rays.mean / (static_cast<float>(lit.count()) / static_cast<float>(kFitRays));
+    return Look{Light::kSettled, {shine.lamp, tint, {}, {}, std::move(*screens)}, {}};
   }
 
   void list_opaque(LampShine& shine) const {
@@ -237,11 +279,10 @@ class TileLister {
   // share.
   Look screened(const Square& square, std::uint32_t lamp) {
     const Rays rays = rays_to(square, lamp, kRaysOfEdge);
-    // What a pane lets through is lit, too.
     std::vector<float> lit = rays.lit;
-    for (float& share : lit) {
-      if (share > 0 && share < kLitShare * luminance(rays.most)) return arrived(lamp, rays.mean);
-      share = share > 0 ? 1.0f : 0.0f;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+      if (is_dim(rays, i)) return arrived(lamp, rays.mean);
+      lit[i] = lit[i] > 0 ? 1.0f : 0.0f;
     }
     DVec2 of_lit(0), of_dark(0);
     double sum = 0;
@@ -261,7 +302,7 @@ class TileLister {
     const DVec2 edge = 0.5 + towards * (0.5 * (at[dark - (dark > 0)] + at[dark]));
     const BeamTriangle corners{over(square, edge - kScreen * along, lamp), over(square, edge + kScreen * along, lamp),
                                over(square, edge - 2 * kScreen * towards, lamp)};
-    return {Light::kSettled, {lamp, rays.mean * static_cast<float>(count / sum), {}, {}, corners}, {}};
+    return {Light::kSettled, {lamp, rays.mean * static_cast<float>(count / sum), {}, {}, {{corners, 1}}}, {}};
   }
 
   // A place of a square, its sides being 1, on the way from there to the lamp, just over the chart.
@@ -282,25 +323,30 @@ class TileLister {
     Vec3 mean{0}, most{0};
     std::vector<float> lit;  // by ray
     bool even = true;        // all pass or none does
+    std::vector<Ray> rays;
   };
+  // Neither lit nor dark. What a pane lets through is lit, too.
+  static bool is_dim(const Rays& rays, std::size_t i) {
+    return rays.lit[i] > 0 && rays.lit[i] < kLitShare * luminance(rays.most);
+  }
   static DVec2 ray_place(std::uint32_t k, std::uint32_t side) {
     return (DVec2(k % side, k / side) + 0.5) / double(side);
   }
-  Rays rays_to(const Square& square, std::uint32_t lamp, std::uint32_t side) {
+  // wider: how many times the square and a sun's disk are as wide.
+  Rays rays_to(const Square& square, std::uint32_t lamp, std::uint32_t side, double wider = 1) {
     const oriel::Light& light = light_of(lamp);
     std::vector<Ray> rays;
     for (std::uint32_t k = 0; k < side * side; ++k) {
-      const DVec2 within = ray_place(k, side);
-      // A sun's disk is sampled by the same points, in another order.
-      const Vec2 of_disk((static_cast<float>(k / side) + 0.5f) / static_cast<float>(side),
-                         (static_cast<float>((k * 5 + 2) % (side * side) / side) + 0.5f) / static_cast<float>(side));
+      const DVec2 within = 0.5 + wider * (ray_place(k, side) - 0.5);
       Ray ray;
       const Vec3 at(chart_.at(square.lower + square.side * within) + 8 * level_ * chart_.normal);
       ray.origin = offset_origin(at, Vec3(chart_.normal), max_component(glm::abs(at)));
       ray.past_frosted = false;
       if (light.type == LightType::kDirectional) {
-        ray.direction = light.angular_radius_rad > 0 ? sample_cone(-light.direction, light.angular_radius_rad, of_disk)
-                                                     : -light.direction;
+        ray.direction = light.angular_radius_rad > 0
+                            ? sample_cone(-light.direction, static_cast<float>(wider) * light.angular_radius_rad,
+                                          Sampler(0, 0, k).next2())
+                            : -light.direction;
       } else {
         const Vec3 to = light.position - ray.origin;
         ray.max_distance = glm::length(to);
@@ -312,6 +358,7 @@ class TileLister {
     scene_.transport.accel.transmittance(rays, passed);
     rays_ += rays.size();
     Rays out;
+    out.rays = rays;
     for (const Vec3& light_passed : passed) {
       out.mean += light_passed / static_cast<float>(rays.size());
       out.most = glm::max(out.most, light_passed);

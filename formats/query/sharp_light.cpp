@@ -1,20 +1,13 @@
 #include "formats/query/sharp_light.h"
 
 #include <array>
+#include <bit>
 
 #include "formats/core/half.h"
 
 namespace oriel {
 namespace {
 
-// The numbers are the shader's. Of a disk of radius 1: directions of equal shares of it (Vogel 1979), and the side of a
-// square as large as a share.
-constexpr std::size_t kShares = 16;
-constexpr std::array<float, kShares> kDiskX = {0.177f, -0.226f, 0.035f, 0.285f, -0.522f, 0.495f, -0.165f, -0.316f,
-                                               0.685f, -0.712f, 0.343f, 0.254f, -0.765f, 0.897f, -0.548f, -0.126f};
-constexpr std::array<float, kShares> kDiskY = {0.000f, 0.207f, -0.394f, 0.371f, -0.092f, -0.315f, 0.616f, -0.608f,
-                                               0.250f, 0.294f, -0.734f, 0.809f, -0.443f, -0.197f, 0.779f, -0.976f};
-constexpr float kDiskStep = 0.443f;
 constexpr float kEndStep = 1e-7f;  // sine
 
 // A lamp as a point sees it.
@@ -50,53 +43,40 @@ struct SeenEdge {
     inwards = across / size;
     hard = 1e-6f * (length2(a) + length2(b)) / size;
   }
-  // How far it is on the triangle's side, of a sine; width: over which the edge spreads.
-  float inside(float sine, float width) const {
+  // How far it is on the triangle's side, of a sine.
+  float inside(float sine) const {
     if (!ends) return sine >= -hard ? 1.0f : 0.0f;
-    return std::clamp(sine / (width + kEndStep) + 0.5f, 0.0f, 1.0f);
+    return std::clamp(sine / kEndStep + 0.5f, 0.0f, 1.0f);
   }
 };
 using SeenEdges = std::array<SeenEdge, 3>;
 
 float covered_by(const SeenEdges& edges, const Vec3& towards) {
   float in_all = 1;
-  for (const SeenEdge& edge : edges) in_all = std::min(in_all, edge.inside(glm::dot(edge.inwards, towards), 0));
+  for (const SeenEdge& edge : edges) in_all = std::min(in_all, edge.inside(glm::dot(edge.inwards, towards)));
   return in_all;
 }
 
-// By share of a sun's disk. Pieces of one surface add up where they meet; what faces the lamp and what turns from it,
-// as the two sides of a body do, cover the same.
-struct CoveredDisk {
-  std::array<std::array<float, kShares>, 2> by_facing{};
-
-  float mean() const {
-    float sum = 0;
-    for (std::size_t i = 0; i < kShares; ++i) sum += std::min(std::max(by_facing[0][i], by_facing[1][i]), 1.0f);
-    return sum / kShares;
-  }
-};
-
-void cover_disk(const SeenEdges& edges, const ShiningLamp& lamp, std::array<float, kShares>& covered) {
+// Of a sun's places, by bit.
+std::uint64_t covered_of_disk(const SeenEdges& edges, const ShiningLamp& lamp) {
   const Vec3& to = lamp.towards;
   const Vec3 u = glm::normalize(std::abs(to.x) < 0.7f ? Vec3(0, to.z, -to.y) : Vec3(-to.z, 0, to.x));
   const Vec3 v = glm::cross(to, u);
-  std::array<float, kShares> in_all;
-  in_all.fill(1);
+  std::uint64_t in_all = ~std::uint64_t{0};
   for (const SeenEdge& edge : edges) {
-    const float sine = glm::dot(edge.inwards, to);
+    const float sine = glm::dot(edge.inwards, to) + (edge.ends ? 0 : edge.hard);
     const Vec2 slope = lamp.spread * Vec2(glm::dot(edge.inwards, u), glm::dot(edge.inwards, v));
-    for (std::size_t i = 0; i < kShares; ++i)
-      in_all[i] =
-          std::min(in_all[i], edge.inside(sine + slope.x * kDiskX[i] + slope.y * kDiskY[i], kDiskStep * lamp.spread));
+    for (std::size_t i = 0; i < kSunPlaces.size(); ++i)
+      if (sine + glm::dot(slope, kSunPlaces[i]) < 0) in_all &= ~(std::uint64_t{1} << i);
   }
-  for (std::size_t i = 0; i < kShares; ++i) covered[i] += in_all[i];
+  return in_all;
 }
 
 // How much of a lamp those triangles leave.
 float visible_share(const SharpLight& light, const ShiningLamp& lamp, std::span<const std::uint32_t> words,
                     const Vec3& p) {
   float covered = 0;
-  CoveredDisk disk;
+  std::uint64_t of_disk = 0;
   for (const std::uint32_t word : words) {
     const auto& corners = light.triangles[word & ((1u << kSharpEdgeShift) - 1)];
     const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p, normal = glm::cross(b - a, c - a);
@@ -109,11 +89,12 @@ float visible_share(const SharpLight& light, const ShiningLamp& lamp, std::span<
     const SeenEdges edges = {SeenEdge(a, b, turn, ends(0)), SeenEdge(b, c, turn, ends(1)),
                              SeenEdge(c, a, turn, ends(2))};
     if (lamp.spread > 0)
-      cover_disk(edges, lamp, disk.by_facing[of_lamp > 0 ? 0 : 1]);
+      of_disk |= covered_of_disk(edges, lamp);
     else if ((covered = std::max(covered, covered_by(edges, lamp.towards))) >= 1)
       return 0;
   }
-  return 1 - (lamp.spread > 0 ? disk.mean() : covered);
+  if (lamp.spread > 0) covered = static_cast<float>(std::popcount(of_disk)) / static_cast<float>(kSunPlaces.size());
+  return 1 - covered;
 }
 
 // Where in `words` the record of that place begins; 0: there is none.
@@ -133,6 +114,16 @@ std::uint32_t record_at(const SharpLight& light, const LightmapPage& page, const
 }
 
 }  // namespace
+
+// Vogel 1979.
+const std::array<Vec2, 64> kSunPlaces = [] {
+  std::array<Vec2, 64> places;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const float turn = static_cast<float>(i) * kPi * (3 - std::sqrt(5.0f));
+    places[i] = std::sqrt((static_cast<float>(i) + 0.5f) / 64) * Vec2(std::cos(turn), std::sin(turn));
+  }
+  return places;
+}();
 
 Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const SharpPlace& at,
                       std::span<const Vec3> factors) {

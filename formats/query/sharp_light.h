@@ -1,12 +1,16 @@
 // Sharp light at a point: what the player computes by pixel (shaders/lib/sharp_light.glsl), at a pixel without width.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "formats/assets/lightmap.h"
 #include "formats/assets/sharp_light.h"
 
 namespace oriel {
+
+// Places of a disk of radius 1, each of an equal share of it.
+extern const std::array<Vec2, 64> kSunPlaces;
 
 // A place of a page, uv in [0,1], and the surface there: pack space; normal: unit.
 struct SharpPlace {

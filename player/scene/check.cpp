@@ -83,7 +83,7 @@ void check_movers(const Pack& pack, Limits& limits) {
 
 void check_sharp_light(const SharpLight& light, Limits& limits) {
   if (light.empty()) return;
-  const std::size_t most = std::max(light.words.size(), 4 * light.triangles.size());
+  const std::size_t most = std::max(light.words.size() + 2 * kSharpColumns, 4 * light.triangles.size());
   limits.side("sharp light", std::max({kSharpColumns, (most + kSharpColumns - 1) / kSharpColumns, light.lamps.size()}));
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "formats/query/sharp_light.h"
+
 namespace oriel {
 namespace {
 
@@ -12,6 +14,23 @@ gpu::Texture2d rows_of(const gpu::TextureFormat& format, std::vector<Texel> texe
   const std::size_t rows = std::max<std::size_t>((texels.size() + kSharpColumns - 1) / kSharpColumns, 1);
   texels.resize(rows * kSharpColumns);
   return {format, static_cast<int>(kSharpColumns), static_cast<int>(rows), texels.data()};
+}
+
+// What half_disk() looks up, in order: by 64 directions about the square |x| + |y| = 1, and by 64 offsets.
+std::vector<std::uint32_t> half_disks() {
+  std::vector<std::uint32_t> words;
+  for (int k = 0; k < 64; ++k) {
+    const float at = (static_cast<float>(k) + 0.5f) / 16, x = at < 2 ? 1 - at : at - 3;
+    const Vec2 normal = glm::normalize(Vec2(x, (at < 2 ? 1 : -1) * (1 - std::abs(x))));
+    for (int off = 0; off < 64; ++off) {
+      std::uint64_t bits = 0;
+      for (std::size_t i = 0; i < 64; ++i)
+        if (glm::dot(normal, kSunPlaces[i]) + (static_cast<float>(off) + 0.5f) / 32 - 1 >= 0)
+          bits |= std::uint64_t{1} << i;
+      words.push_back(static_cast<std::uint32_t>(bits)), words.push_back(static_cast<std::uint32_t>(bits >> 32u));
+    }
+  }
+  return words;
 }
 
 }  // namespace
@@ -25,7 +44,9 @@ GpuSharpLight GpuSharpLight::upload(const SharpLight& light) {
     for (const Vec3& corner : triangle) corners.emplace_back(corner, 0);
     corners.emplace_back(0);
   }
-  out.words = rows_of(gpu::kR32ui, light.words);
+  std::vector<std::uint32_t> words = half_disks();
+  words.insert(words.end(), light.words.begin(), light.words.end());
+  out.words = rows_of(gpu::kR32ui, std::move(words));
   out.triangles = rows_of(gpu::kRgba32f, std::move(corners));
   out.suns = std::ranges::any_of(light.lamps, &SharpLamp::sun);
   out.shine(light, {});

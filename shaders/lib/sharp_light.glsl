@@ -1,22 +1,11 @@
 // Direct light of points, spots and suns by the pixel (formats/assets/sharp_light.h, docs/notes/sharp-light.md).
 uniform highp usampler2D u_sharp_at;        // by texel of the page
-uniform highp usampler2D u_sharp_words;     // 4096 a row
+uniform highp usampler2D u_sharp_words;     // 4096 a row; before them two rows of half_disk()
 uniform highp sampler2D u_sharp_triangles;  // likewise, four texels each: corners, and one unused
 uniform highp sampler2D u_sharp_lamps;      // a row each, see lamp_at()
 
 const uint kSharpSplit = 0xffffffffu;
 const int kMostSharpSplits = 5;
-const float kDiskStep = 0.443;   // the side of a square as large as a share of a disk of radius 1
-#ifdef SUNS                      // some lamps are
-#define SHARES vec4
-const int kDiskQuads = 4;
-// Of that disk: directions of equal shares of it (Vogel 1979).
-const vec4 kDiskX[4] = vec4[4](vec4(0.177, -0.226, 0.035, 0.285), vec4(-0.522, 0.495, -0.165, -0.316), vec4(0.685, -0.712, 0.343, 0.254), vec4(-0.765, 0.897, -0.548, -0.126));
-const vec4 kDiskY[4] = vec4[4](vec4(0.000, 0.207, -0.394, 0.371), vec4(-0.092, -0.315, 0.616, -0.608), vec4(0.250, 0.294, -0.734, 0.809), vec4(-0.443, -0.197, 0.779, -0.976));
-#else
-#define SHARES float
-const int kDiskQuads = 1;
-#endif
 const float kMostSharpLux = 1.5e5;  // close to a lamp: half floats hold what white reflects of it
 
 struct SharpLamp {
@@ -28,7 +17,7 @@ struct SharpLamp {
 
 ivec2 sharp_texel(uint i) { return ivec2(int(i & 4095u), int(i >> 12u)); }
 
-uint sharp_word(uint i) { return texelFetch(u_sharp_words, sharp_texel(i), 0).r; }
+uint sharp_word(uint i) { return texelFetch(u_sharp_words, sharp_texel(i + 8192u), 0).r; }
 
 vec3 color_of_word(uint code) {
   return vec3(code & 511u, code >> 9u & 511u, code >> 18u & 511u) * exp2(float(code >> 27u) - 24.0);
@@ -48,32 +37,47 @@ SharpLamp lamp_at(int row, vec3 p, vec3 normal) {
   return SharpLamp(to, 1.0, 0.0, power.rgb * (cone * cone * max(dot(normal, towards), 0.0) / distance2));
 }
 
-// On which side of one of a triangle's edges a lamp is, seen from a pixel: the determinant of the way to corner a, to the
-// next and to the lamp. As the pixel moves it changes evenly.
-struct SharpEdge {
-  float inside;
-  vec2 slope;     // of it, from the middle of a sun to its rim
-  float inverse;  // of what it changes by along a shadow's edge
-  float bias;
-};
-
 float extent(vec3 v) { return dot(abs(v), vec3(1.0)); }
 
-// ends: the shadow does here, else another triangle goes on and takes over without a gap.
-SharpEdge edge_from(vec3 a, vec3 ab, SharpLamp lamp, vec3 u, vec3 v, float turn, bool ends, vec3 dx, vec3 dy) {
-  vec3 to = lamp.to - lamp.near * a, across = cross(ab, to);
-  float rounding = 1e-6 * extent(ab) * extent(to) * extent(a) + 1e-30;
-  vec3 plane = turn * lamp.spread * cross(a, ab);
-  vec2 slope = vec2(dot(plane, u), dot(plane, v));
-  float width = max(abs(dot(across, dx)) + abs(dot(across, dy)) + kDiskStep * length(slope), rounding);
-  return SharpEdge(turn * dot(across, a), slope, 1.0 / (ends ? width : rounding), ends ? 0.5 : 2.0);
+#ifdef SUNS  // some lamps are
+#define COVER uvec2
+// Which of 64 places of a unit disk, all shares of it alike, have dot(place, n) + off >= 0, n being across, normalized.
+uvec2 half_disk(vec2 across, float off) {
+  if (off >= 1.0) return uvec2(0xffffffffu);
+  if (off <= -1.0) return uvec2(0u);
+  float x = across.x / (abs(across.x) + abs(across.y));
+  int direction = int((across.y < 0.0 ? 3.0 + x : 1.0 - x) * 16.0) & 63;
+  int at = 128 * direction + 2 * int(off * 32.0 + 32.0);
+  ivec2 texel = ivec2(at & 4095, at >> 12);
+  return uvec2(texelFetch(u_sharp_words, texel, 0).r, texelFetch(u_sharp_words, texel + ivec2(1, 0), 0).r);
 }
 
-SHARES inside(SharpEdge e, int quad) {
-#ifdef SUNS
-  return clamp((e.inside + e.slope.x * kDiskX[quad] + e.slope.y * kDiskY[quad]) * e.inverse + e.bias, 0.0, 1.0);
+float ones(uvec2 bits) {
+  bits -= bits >> 1u & 0x55555555u;
+  bits = (bits & 0x33333333u) + (bits >> 2u & 0x33333333u);
+  bits = (bits + (bits >> 4u) & 0x0f0f0f0fu) * 0x01010101u >> 24u;
+  return float(bits.x + bits.y);
+}
 #else
-  return clamp(e.inside * e.inverse + e.bias, 0.0, 1.0);
+#define COVER float
+#endif
+
+// How much of a lamp, or of a pixel, is on the inner side of a triangle's edge: by the determinant of the way from the
+// pixel to corner a, to the next and to the lamp, which changes evenly with the pixel. ends: the shadow does here, else
+// another triangle goes on, and both cover a little of the other so that nothing leaks.
+COVER inside(vec3 a, vec3 ab, SharpLamp lamp, vec3 u, vec3 v, float turn, bool ends, vec3 dx, vec3 dy) {
+  vec3 to = lamp.to - lamp.near * a, across = cross(ab, to);
+  float rounding = 1e-6 * extent(ab) * extent(to) * extent(a) + 1e-30, depth = turn * dot(across, a);
+  vec2 by_pixel = vec2(dot(across, dx), dot(across, dy));
+  float width = abs(by_pixel.x) + abs(by_pixel.y);
+#ifdef SUNS
+  vec3 plane = turn * lamp.spread * cross(a, ab);
+  vec2 slope = lamp.spread > 0.0 ? vec2(dot(plane, u), dot(plane, v)) : by_pixel;
+  float pixel = ends ? 0.5 * width : 0.0;
+  float reach = max(lamp.spread > 0.0 ? length(vec3(slope, pixel)) : pixel, rounding);
+  return half_disk(slope, ends ? depth / reach : (depth + 2.0 * rounding) / reach + 0.0625);
+#else
+  return clamp(ends ? depth / max(width, rounding) + 0.5 : depth / rounding + 2.0, 0.0, 1.0);
 #endif
 }
 
@@ -81,10 +85,9 @@ SHARES inside(SharpEdge e, int quad) {
 float sharp_visible(SharpLamp lamp, uint first, uint count, vec3 p, vec3 dx, vec3 dy) {
   vec3 u = normalize(abs(lamp.to.x) < abs(lamp.to.y) ? vec3(0.0, lamp.to.z, -lamp.to.y) : vec3(-lamp.to.z, 0.0, lamp.to.x));
   vec3 v = cross(lamp.to, u);
-  // Pieces of one surface add up where they meet; what faces the lamp and what turns from it, as the two sides of a body
-  // do, cover the same.
-  SHARES front[kDiskQuads], back[kDiskQuads];
-  for (int j = 0; j < kDiskQuads; ++j) front[j] = back[j] = SHARES(0.0);
+  // Of a pixel pieces of one surface add up where they meet; what faces the lamp and what turns from it, as the two
+  // sides of a body do, cover the same.
+  COVER front = COVER(0), back = COVER(0);
   for (uint k = 0u; k < count; ++k) {
     uint word = sharp_word(first + k);
     ivec2 texel = sharp_texel(4u * (word & 0x1fffffffu));
@@ -97,22 +100,21 @@ float sharp_visible(SharpLamp lamp, uint first, uint count, vec3 p, vec3 dx, vec
     // The triangle's plane lies before a lamp.
     if (lamp.near * (height * height - height * dot(normal, lamp.to)) >= (1.0 - lamp.near) * height * height) continue;
     float turn = sign(height);
-    SharpEdge e0 = edge_from(a, ab, lamp, u, v, turn, (word & 0x20000000u) != 0u, dx, dy);
-    SharpEdge e1 = edge_from(b, bc, lamp, u, v, turn, (word & 0x40000000u) != 0u, dx, dy);
-    SharpEdge e2 = edge_from(c, ca, lamp, u, v, turn, (word & 0x80000000u) != 0u, dx, dy);
-    float faces = step(0.0, dot(normal, lamp.to - lamp.near * a));
-    for (int j = 0; j < kDiskQuads; ++j) {
-      // Exact between opposite edges, so that what is thinner than a pixel fades.
-      SHARES in_all = max(inside(e0, j) + inside(e1, j) + inside(e2, j) - 2.0, SHARES(0.0));
-      front[j] += faces * in_all, back[j] += (1.0 - faces) * in_all;
-    }
-  }
-  SHARES left = SHARES(0.0);
-  for (int j = 0; j < kDiskQuads; ++j) left += 1.0 - min(max(front[j], back[j]), 1.0);
+    COVER in_ab = inside(a, ab, lamp, u, v, turn, (word & 0x20000000u) != 0u, dx, dy);
+    COVER in_bc = inside(b, bc, lamp, u, v, turn, (word & 0x40000000u) != 0u, dx, dy);
+    COVER in_ca = inside(c, ca, lamp, u, v, turn, (word & 0x80000000u) != 0u, dx, dy);
 #ifdef SUNS
-  return dot(left, vec4(0.25 / float(kDiskQuads)));
+    front |= in_ab & in_bc & in_ca;
 #else
-  return left;
+    // Exact between opposite edges, so that what is thinner than a pixel fades.
+    float in_all = max(in_ab + in_bc + in_ca - 2.0, 0.0), faces = step(0.0, dot(normal, lamp.to - lamp.near * a));
+    front += faces * in_all, back += (1.0 - faces) * in_all;
+#endif
+  }
+#ifdef SUNS
+  return 1.0 - ones(front) / 64.0;
+#else
+  return 1.0 - min(max(front, back), 1.0);
 #endif
 }
 

@@ -179,31 +179,81 @@ TEST_F(SharpLightTest, ASpotsConeFadesAsItsAngles) {
     }
 }
 
-// A board that ends along z above the origin, under a sun of 1°: what of a disk is beyond a straight edge.
-TEST_F(SharpLightTest, ASunsPenumbraIsThatOfADisk) {
-  for (const Vec3& to_sun : {glm::normalize(Vec3(0, 1, 0)), glm::normalize(Vec3(0.5f, 1, 0.3f))}) {
+struct BoardWidth {
+  float west, east;
+};
+
+// Boards along z above the origin, under a sun: a picture around their edges at x = 0, and where a pixel sees a board's
+// edge at x, in radii of the sun from its middle.
+struct BoardsInTheSun {
+  Vec3 to_sun;
+  float radius_rad;
+  FloorFrame frame{64, 0};
+  Pack pack = dark_floor();
+
+  BoardsInTheSun(const Vec3& towards, float radius, std::initializer_list<BoardWidth> boards)
+      : to_sun(towards), radius_rad(radius) {
+    frame.half = 2.9f * std::tan(radius), frame.middle = Vec2(-to_sun.x, -to_sun.z) / to_sun.y;
     SharpLamp sun;
-    sun.sun = true, sun.direction = -to_sun, sun.intensity = kCandela, sun.angular_radius_rad = kPi / 180;
-    Pack pack = dark_floor();
+    sun.sun = true, sun.direction = -to_sun, sun.intensity = kCandela, sun.angular_radius_rad = radius;
     pack.sharp_light.lamps = {sun};
-    add_board(pack.sharp_light, 0, 3, -3, 2.5f);
-    add_record(pack, shine_past_board());
-    const FloorFrame frame{64, 0.05f, Vec2(-to_sun.x, -to_sun.z) / to_sun.y};
-    const Picture picture =
-        draw(pack, down_from({frame.middle.x, 0.5f, frame.middle.y}, frame.half), frame.side, frame.side);
+    std::vector<std::uint32_t> words = {SharpShine{0, false, static_cast<std::uint32_t>(2 * boards.size())}.code()};
+    for (const auto& [west, east] : boards) {
+      const auto first = static_cast<std::uint32_t>(pack.sharp_light.triangles.size());
+      add_board(pack.sharp_light, west, east, -3, 2.5f + 0.1f * static_cast<float>(first));
+      words.push_back(edges(3) | first), words.push_back(edges(6) | (first + 1));
+    }
+    add_record(pack, words);
+  }
+  Camera camera() const { return down_from({frame.middle.x, 0.5f, frame.middle.y}, frame.half); }
+  float offset(float x, int column, int row) const {
+    const Vec3 inwards = glm::normalize(glm::cross(Vec3(x, kBoardHeight, 0) - frame.at(column, row), Vec3(0, 0, 1)));
+    return -glm::dot(inwards, to_sun) / std::tan(radius_rad);
+  }
+  // How far what shows is from that, at most. open: how much of the sun, by column and row.
+  template <class Open>
+  float most_off(const Picture& picture, const Open& open) const {
     float most = 0;
     for (int y = 0; y < frame.side; ++y)
       for (int x = 0; x < frame.side; ++x) {
-        const Vec3 inwards = glm::normalize(glm::cross(Vec3(0, kBoardHeight, 0) - frame.at(x, y), Vec3(0, 0, 1)));
-        const float sine = -glm::dot(inwards, to_sun);
-        const float u = std::clamp(sine / std::tan(kPi / 180), -1.0f, 1.0f);
-        const float open = 0.5f + (u * std::sqrt(1 - u * u) + std::asin(u)) / kPi;
         const float found = picture.at(x, y).r / (kCandela.r * to_sun.y * kFloorAlbedo / kPi);
-        most = std::max(most, std::abs(found - open));
+        most = std::max(most, std::abs(found - open(x, y)));
       }
-    EXPECT_LT(most, 0.06f);
-    std::printf("penumbra of a sun of 1 degree: at most %.3f off\n", most);
+    return most;
   }
+};
+
+// Of a disk of radius 1 beyond a straight edge so far from its middle.
+float disk_beyond(float off) {
+  const float u = std::clamp(off, -1.0f, 1.0f);
+  return 0.5f + (u * std::sqrt(1 - u * u) + std::asin(u)) / kPi;
+}
+
+TEST_F(SharpLightTest, ASunsPenumbraIsThatOfADisk) {
+  for (const Vec3& to_sun : {glm::normalize(Vec3(0, 1, 0)), glm::normalize(Vec3(0.5f, 1, 0.3f))})
+    for (const float degrees : {0.05f, 0.533f, 5.0f}) {
+      const BoardsInTheSun boards(to_sun, degrees * kPi / 360, {{0, 3}});
+      const Picture picture = draw(boards.pack, boards.camera(), 64, 64);
+      EXPECT_LT(boards.most_off(picture, [&](int x, int y) { return disk_beyond(boards.offset(0, x, y)); }), 0.05f)
+          << degrees;
+    }
+}
+
+// Boards that cover the same twice, that meet without common corners, and one narrower than the sun.
+TEST_F(SharpLightTest, WhatCoversASunIsTheUnionOfTriangles) {
+  const float radius = 0.5f * kPi / 180, bar = 0.5f * std::tan(radius);
+  const Vec3 to_sun = glm::normalize(Vec3(0.2f, 1, 0.3f));
+  const BoardsInTheSun twice(to_sun, radius, {{0, 3}, {0, 2}}), meeting(to_sun, radius, {{-3, 0}, {0, 3}}),
+      thin(to_sun, radius, {{0, bar}});
+  EXPECT_LT(twice.most_off(draw(twice.pack, twice.camera(), 64, 64),
+                           [&](int x, int y) { return disk_beyond(twice.offset(0, x, y)); }),
+            0.05f);
+  EXPECT_LT(meeting.most_off(draw(meeting.pack, meeting.camera(), 64, 64), [](int, int) { return 0.0f; }), 0.03f);
+  EXPECT_LT(thin.most_off(draw(thin.pack, thin.camera(), 64, 64),
+                          [&](int x, int y) {
+                            return 1 - disk_beyond(thin.offset(bar, x, y)) + disk_beyond(thin.offset(0, x, y));
+                          }),
+            0.05f);
 }
 
 TEST_F(SharpLightTest, NothingLeaksThroughTheMiddleOfASunsShadow) {

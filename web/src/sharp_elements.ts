@@ -59,13 +59,15 @@ export function checkSharp(page: Page, light: SharpLight | undefined): void {
 /** Of its lamp, as it shines now. */
 export const powerOf = (lamp: SharpLamp, factors: Vec3[]): Vec3 => lamp.intensity.map((c, i) => c * (factors[lamp.group]?.[i] ?? 1)) as Vec3;
 
-// The shader's numbers.
-const diskX = [0.177, -0.226, 0.035, 0.285, -0.522, 0.495, -0.165, -0.316, 0.685, -0.712, 0.343, 0.254, -0.765, 0.897, -0.548, -0.126];
-const diskY = [0.000, 0.207, -0.394, 0.371, -0.092, -0.315, 0.616, -0.608, 0.250, 0.294, -0.734, 0.809, -0.443, -0.197, 0.779, -0.976];
-const diskStep = 0.443, endStep = 1e-7;
+/** Places of a disk of radius 1, each of an equal share of it (Vogel 1979). */
+export const sunPlaces = Array.from({ length: 64 }, (_, i): [number, number] => {
+  const r = Math.sqrt((i + 0.5) / 64), turn = i * Math.PI * (3 - Math.sqrt(5));
+  return [r * Math.cos(turn), r * Math.sin(turn)];
+});
+const endStep = 1e-7;
 
-// Adds to how much of each direction is covered what a triangle does; of a point the most. ways: into a sun's disk, or one to a point.
-function coverBy(covered: number[], ways: Vec3[], corners: Vec3[], word: number, spread: number): void {
+// How much of each direction is covered, with a triangle more. ways: into a sun's disk, or one to a point.
+function coverBy(covered: number[], ways: Vec3[], corners: Vec3[], word: number): void {
   const [a, b, c] = corners as [Vec3, Vec3, Vec3], turn = Math.sign(v.dot(v.cross(v.sub(b, a), v.sub(c, a)), a));
   const edges = [[a, b], [b, c], [c, a]].map(([from, to], k) => {
     const across = v.cross(from!, to!), size = Math.max(v.length(across), 1e-20);
@@ -74,24 +76,23 @@ function coverBy(covered: number[], ways: Vec3[], corners: Vec3[], word: number,
   ways.forEach((way, i) => {
     const inside = edges.map((e) => {
       const sine = v.dot(e.inwards, way);
-      return e.ends ? Math.min(Math.max(sine / (diskStep * spread + endStep) + 0.5, 0), 1) : Number(sine >= -e.hard);
+      return e.ends ? Math.min(Math.max(sine / endStep + 0.5, 0), 1) : Number(sine >= -e.hard);
     });
-    const least = Math.min(...inside);
-    covered[i] = spread > 0 ? covered[i]! + least : Math.max(covered[i]!, least);
+    covered[i] = Math.max(covered[i]!, Math.min(...inside));
   });
 }
 
 function visibleShare(light: SharpLight, lamp: { towards: Vec3; distance: number; spread: number }, words: Uint32Array, p: Vec3): number {
   const { towards, distance, spread } = lamp, t = towards;
   const right = v.normalize(Math.abs(t[0]) < 0.7 ? [0, t[2], -t[1]] : [-t[2], 0, t[0]], [1, 0, 0]), up = v.cross(t, right);
-  const ways = spread > 0 ? diskX.map((x, i) => v.add(t, v.add(v.scale(right, spread * x), v.scale(up, spread * diskY[i]!)))) : [t];
-  const byFacing = [0, 1].map(() => ways.map(() => 0));
+  const ways = spread > 0 ? sunPlaces.map(([x, y]) => v.add(t, v.add(v.scale(right, spread * x), v.scale(up, spread * y)))) : [t];
+  const covered = ways.map(() => 0);
   for (const word of words) {
     const at = 9 * (word & 0x1fffffff), corners = [0, 3, 6].map((k) => v.sub(Array.from(light.triangles.subarray(at + k, at + k + 3)) as Vec3, p));
     const normal = v.cross(v.sub(corners[1]!, corners[0]!), v.sub(corners[2]!, corners[0]!)), height = v.dot(normal, corners[0]!), ofLamp = v.dot(normal, t) * distance;
-    if (height * (ofLamp - height) > 0) coverBy(byFacing[ofLamp > 0 ? 0 : 1]!, ways, corners, word, spread);
+    if (height * (ofLamp - height) > 0) coverBy(covered, ways, corners, word);
   }
-  return 1 - ways.reduce((sum, _, i) => sum + Math.min(Math.max(byFacing[0]![i]!, byFacing[1]![i]!), 1) / ways.length, 0);
+  return 1 - covered.reduce((sum, c) => sum + c / ways.length, 0);
 }
 
 // Where the record of a place of a page begins; 0, of no lamps, where there are more splits than the shader follows.

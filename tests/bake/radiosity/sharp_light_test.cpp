@@ -89,7 +89,7 @@ LookedAt look_at(const Baked& b, std::uint32_t rays, double margin) {
     const Vec3 normal = geometric_normal(b.scene, triangle);
     const Vec3 &p0 = b.scene.positions[v.x], pu = b.scene.positions[v.y] - p0, pv = b.scene.positions[v.z] - p0;
     const std::string& name = b.scene.surfaces[b.scene.triangle_surface[triangle]].name;
-    if (name == "ball" || name == "lattice") return;
+    if (name == "ball" || name == "lattice" || name == "moulding") return;
     (void)texel;
     const Vec3 p = p0 + share.x * pu + share.y * pv;
     const LightSample full = lights.sample_light(0, p, Vec2(0.5f));
@@ -141,6 +141,24 @@ TEST(SharpLight, PenumbraeOfASunAreThoseOfItsDisk) {
     EXPECT_LE(found.wrong, found.points / 200) << radius << ": of " << found.points << ", worst " << found.worst;
     EXPECT_LT(found.worst, most) << radius;
   }
+}
+
+// Bars of 16 strips each, whose penumbrae are as wide as a bar.
+TEST(SharpLight, PenumbraeOfMouldingsAreThoseOfTheirOutline) {
+  SceneParts parts;
+  const auto matt = parts.diffuse(Vec3(0.5f));
+  parts.quad("floor", matt, {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  for (int bar = 0; bar < 8; ++bar) {
+    const auto corner = [&](int k) {
+      const float turn = kPi / 8 * static_cast<float>(k), r = k % 2 ? 0.01f : 0.008f;
+      return Vec3(-0.6f, 2 + r * std::cos(turn), 0.17f * static_cast<float>(bar) - 0.8f + r * std::sin(turn));
+    };
+    for (int k = 0; k < 16; ++k) parts.quad("moulding", matt, corner(k), {1.2f, 0, 0}, corner(k + 1) - corner(k));
+  }
+  parts.scene().lights = {sun_along({0.05f, -1, 0.1f}, 0.00465f)};
+  const LookedAt found = look_at(test::bake(parts.finish(), 0.1f, sharp_options()), 1024, 0.05);
+  EXPECT_GT(found.points - found.lit - found.dark, 20);
+  EXPECT_EQ(found.wrong, 0) << "of " << found.points << ", worst " << found.worst;
 }
 
 TEST(SharpLight, TexelsHoldAsMuchAsWithoutIt) {
