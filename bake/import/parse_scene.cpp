@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bake/import/document.h"
+#include "bake/scene/daylight.h"
 
 namespace oriel::gltf {
 namespace {
@@ -176,7 +177,7 @@ Light parse_light(const JsonAt& value, std::size_t i, Document& document) {
     light.type = LightType::kDirectional;
   else if (type != "point")
     value["type"].expected("point, spot or directional");
-  light.angular_radius_rad = angular_radius(value, 0);
+  if (light.type == LightType::kDirectional) light.angular_radius_rad = angular_radius(value, double{kSunRadius_rad});
   std::array<double, 3> color{1, 1, 1};
   value["color"].numbers(color);
   double intensity = value["intensity"].number(1);

@@ -7,9 +7,9 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kMostAreas = 4, kMostSides = 4;  // that stand for all that is in the way; of one
-constexpr std::size_t kMostCandidates = 64;           // sides to choose from: with more, smaller squares have fewer each
-constexpr double kSoft = 4;      // penumbrae that a square may be wide: of 16 rays across several meet each
-constexpr double kHalfEdge = 4;  // of a screen, in radii of the beam
+constexpr std::size_t kMostCandidates = 64;  // sides to choose from: with more, smaller squares have fewer each
+constexpr double kSoft = 4;                  // penumbrae that a square may be wide: of 16 rays across several meet each
+constexpr double kHalfEdge = 4;              // of a screen, in radii of the beam
 
 struct ScreenCorner {
   DVec2 at{0};

@@ -189,8 +189,8 @@ std::vector<Option> light_options(ImportOptions& import) {
       {"--sky-rotation", kLight, "Turns the sky's file, counter-clockwise seen from above, degrees",
        number(import.sky_rotation_deg, -360, 360), Use::kRare, "sky_rotation_deg"},
       {"--sun-angle", kLight,
-       "How large directional lights appear, degrees across: 0.53 gives the sun's soft shadows. Otherwise as the file "
-       "says (extras.oriel.angular_diameter_deg), which is a point",
+       "How large directional lights appear, degrees across; 0: points. Otherwise as the file says "
+       "(extras.oriel.angular_diameter_deg), or 0.53 as the sun",
        number(import.sun_angle_deg, 0, 180), Use::kRare, "sun_angle_deg"},
       {"--ies", kLight,
        "A measured luminaire (IES LM-63 of type C, or EULUMDAT) for the point or spot light of a node: it replaces "

@@ -11,7 +11,6 @@ namespace oriel {
 namespace {
 
 constexpr double kRadians = kPiD / 180;
-constexpr float kSunRadius_rad = 0.2665f * (kPi / 180);
 constexpr std::uint32_t kSkyRows = 256;  // 0.7°: but for the sun's own disk a sky changes over ten degrees
 constexpr std::uint32_t kColumns = 2 * kSkyRows;
 // What the light of sunrise sheds on level ground under a clear sky, lux (Schlyter 1997, "Radiometry and photometry in

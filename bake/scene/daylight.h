@@ -9,6 +9,8 @@ namespace oriel {
 
 inline constexpr std::size_t kMostDayHours = 31;  // with a sun, each being a light group: one more is for other lamps
 
+inline constexpr float kSunRadius_rad = 0.2665f * (kPi / 180);  // as it is seen from the earth, on the mean
+
 struct DayOptions {
   bool wanted = false;
   Date date;

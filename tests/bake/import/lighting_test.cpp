@@ -122,13 +122,16 @@ TEST(Lighting, TheSunHasASize) {
   const auto radius = [](const Imported& r, std::size_t light) { return r.scene().lights[light].angular_radius_rad; };
   Gltf g = with_lights();
   EXPECT_FLOAT_EQ(radius(import(g), 1), 0.25f * kPi / 180);
-  EXPECT_EQ(radius(import(g), 2), 0);
+  EXPECT_FLOAT_EQ(radius(import(g), 2), 0.2665f * kPi / 180) << "as the sun";
+  EXPECT_EQ(radius(import(g), 0), 0) << "a point";
   g.doc["nodes"][2]["extras"]["oriel"]["angular_diameter_deg"] = 2;
   EXPECT_FLOAT_EQ(radius(import(g), 1), kPi / 180) << "the node's own";
   ImportOptions options;
   options.sun_angle_deg = 4;
   EXPECT_FLOAT_EQ(radius(import(g, options), 1), 2 * kPi / 180);
   EXPECT_FLOAT_EQ(radius(import(g, options), 2), 2 * kPi / 180);
+  options.sun_angle_deg = 0;
+  EXPECT_EQ(radius(import(g, options), 1), 0);
   options.sun_angle_deg = 181;
   EXPECT_EQ(import(g, options).result.error().code, ErrorCode::kUsage);
   g.doc["nodes"][2]["extras"]["oriel"]["angular_diameter_deg"] = -1;
