@@ -245,4 +245,17 @@ TexelPoint sample_texel(const Atlas& atlas, const TexelMapPage& page, std::size_
   return {fragment.triangle, Vec2(inside(w))};
 }
 
+double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i) {
+  double area = 0;
+  for (std::uint32_t f = map.first[i]; f < map.first[i + 1]; ++f) {
+    const TexelFragment& fragment = map.fragments[f];
+    const auto& uv = atlas.uv[fragment.triangle];
+    const DVec2 size(map.width, map.height);
+    const DVec2 a = DVec2(uv[1] - uv[0]) * size, b = DVec2(uv[2] - uv[0]) * size;
+    const double texels = 0.5 * std::abs(a.x * b.y - a.y * b.x);
+    if (texels > 0) area += std::min(1.0, fragment.area / texels) * triangle_area(scene, fragment.triangle);
+  }
+  return area;
+}
+
 }  // namespace oriel

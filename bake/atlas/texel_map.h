@@ -30,6 +30,9 @@ Result<std::vector<TexelMapPage>> build_texel_map(const Atlas& atlas, Context& c
 // The share of texel i that has a surface: (0,1].
 float covered_share(const TexelMapPage& page, std::size_t i);
 
+// The area of the surface under texel i of the map, m².
+double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);
+
 // A triangle's corners in texels of its page (which it must have).
 std::array<DVec2, 3> texel_triangle(const Atlas& atlas, std::uint32_t triangle);
 

@@ -110,11 +110,16 @@ Status write_result(const BakeArguments& args, const BakeResult& result, BakeSes
   return {};
 }
 
-// What its requirements, and how it ended, are to who asks whether it has to be baked again.
+// What its requirements, and how it ended, are to who asks whether it has to be baked again. A texture that was missing
+// may be there by then.
 void record_verdict(const std::vector<std::string>& met, BakeResult& result) {
-  if (met.empty() && result.shortfalls.empty()) return;
+  std::vector<std::string> shortfalls = texts_of(result.shortfalls);
+  shortfalls.insert(shortfalls.end(), result.left_out.begin(), result.left_out.end());
+  for (const Warning& warning : result.warnings)
+    if (warning.code == "missing-texture") shortfalls.push_back(warning.text);
+  if (met.empty() && shortfalls.empty()) return;
   Json plan = Json::parse(result.pack.plan).value();
-  if (!result.shortfalls.empty()) plan["shortfalls"] = texts_of(result.shortfalls);
+  if (!shortfalls.empty()) plan["shortfalls"] = shortfalls;
   if (!met.empty()) plan["met"] = met;
   result.pack.plan = plan.dump(2);
 }
@@ -133,11 +138,12 @@ Status begin_report(const BakeArguments& args) {
   return write_text_atomically(args.report, outcome_json({}, args.bake.scene, args.bake.output));
 }
 
-// Where the pack is there already.
+// Where the pack is there already. A report tells more than a pack knows of its bake.
 Result<std::optional<BakeResult>> find_made(const BakeArguments& args, const std::vector<std::string>& met,
                                             BakeSession& session) {
   std::error_code ec;
-  if (args.cache == "off" || !std::filesystem::exists(args.bake.output, ec)) return std::nullopt;
+  if (args.cache == "off" || !args.report.empty() || !std::filesystem::exists(args.bake.output, ec))
+    return std::nullopt;
   const auto records = read_records(args.bake.output);
   const auto wanted = records ? wanted_provenance(args.bake, session.context) : tl::unexpected(records.error());
   if (!wanted || !is_up_to_date(*records, *wanted, met)) return std::nullopt;
@@ -152,6 +158,7 @@ Result<std::optional<BakeResult>> find_made(const BakeArguments& args, const std
 Status make_pack(const BakeArguments& args, BakeSession& session, std::optional<BakeResult>& made, bool& written) {
   ORIEL_TRY_VOID(check_output(args.bake.output, inputs_of(args.bake.scene, args.bake.import)));
   std::vector<std::string> met = args.required.given;
+  std::erase(met, "nothing");
   met.insert(met.end(), session.errors.begin(), session.errors.end());
   ORIEL_TRY(made, find_made(args, met, session));
   written = made.has_value();
@@ -163,10 +170,10 @@ Status make_pack(const BakeArguments& args, BakeSession& session, std::optional<
   if (cache) print_share(made->units, cache->folder(), session);
   print_result(*made, session);
   Status verdict = judge(args.required, *made, session);
-  written = verdict || args.keep == "partial" || (args.keep.empty() && met.empty());
-  if (written) {
+  if (verdict || args.keep == "partial" || (args.keep.empty() && met.empty())) {
     record_verdict(verdict ? met : std::vector<std::string>(), *made);
     ORIEL_TRY_VOID(write_result(args, *made, session));
+    written = true;
   }
   if (!verdict)
     return fail(verdict.error().code, args.bake.output.string(), "{} {}",
@@ -182,8 +189,8 @@ Outcome::Kind kind_of(const Status& status, bool written, const BakeResult* resu
 }
 
 Status run_bake(const BakeArguments& args, BakeSession& session) {
-  stop_on_signals(session.context, args.bake.output, OnStop::kFinish);
   ORIEL_TRY(const OutputLock lock, OutputLock::take(args.bake.output));
+  stop_on_signals(session.context, args.bake.output, OnStop::kFinish);
   ORIEL_TRY_VOID(begin_report(args));
   Outcome outcome;
   std::optional<WarningLog> log(std::in_place, session.context, outcome.warnings);

@@ -68,11 +68,14 @@ Status take_options(const PackRecords& pack, FarmArguments& args, BakeSession& s
   const Json& words = pack.provenance["given"];
   std::map<std::string, Given::Texts> found;
   const auto options = bake_options(args.bake);
+  const auto word = [&](std::size_t i) {
+    return words.is_array() && i < words.size() && words[i].is_string() ? words[i].get<std::string>() : "";
+  };
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string name = words[i].get<std::string>();
+    const std::string name = word(i);
     const auto option = std::ranges::find(options, name, long_name);
     if (option == options.end()) return fail(ErrorCode::kInvalid, name, "is no option of this version");
-    const std::string text = option->value.type.empty() ? "" : words.at(++i).get<std::string>();
+    const std::string text = option->value.type.empty() ? "" : word(++i);
     if (given.has(name)) continue;
     ORIEL_TRY_VOID(option->value.set(text));
     found[name].texts.push_back(text);
@@ -86,6 +89,7 @@ Status take_options(const PackRecords& pack, FarmArguments& args, BakeSession& s
 Status print_key(const FarmArguments& args, BakeSession& session) {
   ORIEL_TRY(Json wanted, wanted_provenance(args.bake, session.context));
   wanted.erase("given");  // other words for the same options
+  wanted["instruction_sets"] = instruction_sets(args.bake.reproducible);
   const std::string text = wanted.dump();
   return print(hash128_hex(std::as_bytes(std::span(text))) + "\n");
 }
@@ -145,10 +149,11 @@ ToolCommand verify_command(BakeSession& session) {
 
 ToolCommand key_command(BakeSession& session) {
   const auto args = std::make_shared<FarmArguments>();
-  ToolCommand out{.name = "key",
-                  .help = "Prints the hash of all that a bake would follow from: files, options, seed, program",
-                  .footer = "The same key, the same pack: a build system need not bake again.",
-                  .options = {scene_argument(args->bake.scene)}};
+  ToolCommand out{
+      .name = "key",
+      .help = "Prints the hash of all that a bake would follow from: files, options, seed, program",
+      .footer = "The same key, the same pack (but for --time and --reuse-error): a build system need not bake again.",
+      .options = {scene_argument(args->bake.scene)}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };

@@ -19,7 +19,7 @@ namespace {
 // What the signal handlers need; set before they are installed.
 Context* g_context = nullptr;
 OnStop g_on_stop = OnStop::kStop;
-char g_temporary[4096] = "";
+char g_temporary[4096] = "", g_lock[4096] = "";
 std::string g_report, g_report_text;
 bool g_json = false;                      // lines on stderr are JSON
 constexpr unsigned kMostAfterTerm_s = 9;  // for finishing after SIGTERM
@@ -34,6 +34,7 @@ void tell(const char (&text)[N]) {
 // itself. That loses nothing: a pack exists only once it is renamed into place.
 void on_alarm(int) {
   ::unlink(g_temporary);
+  ::unlink(g_lock);
   if (!g_report.empty())
     if (const int file = ::open(g_report.c_str(), O_WRONLY | O_TRUNC); file >= 0) {
       [[maybe_unused]] const ssize_t written = ::write(file, g_report_text.data(), g_report_text.size());
@@ -123,8 +124,7 @@ std::vector<Option> run_options(BakeSession& session) {
       {"--seed", kRun, "Of every random number: another seed gives another, equally good, estimate",
        number(session.seed, 0, 18446744073709551615.0)},
       {"--quiet", kRun, "No progress; warnings and errors only", flag(session.quiet), Use::kEveryday},
-      {"-W,--warn", kRun,
-       "Warnings with these codes end the program with exit code 7 before anything is written. May be repeated",
+      {"-W,--warn", kRun, "Warnings with these codes end the program with exit code 7. May be repeated",
        fatal_warnings(session.errors), Use::kRare, "", "pipelines.md#warnings"},
       {"--json-log", kRun,
        "Every line on stderr is a JSON object: progress, notes, warnings and errors, those of usage and of signals too",
@@ -145,9 +145,12 @@ void report_hard_stop(const std::filesystem::path& file, std::string text) {
 void stop_on_signals(Context& context, const std::filesystem::path& output, OnStop on_stop_does) {
   g_context = &context;
   g_on_stop = on_stop_does;
-  const std::string temporary = output.empty() ? "" : temporary_name(output).string();
-  std::fill(std::begin(g_temporary), std::end(g_temporary), '\0');
-  if (temporary.size() < sizeof(g_temporary)) std::copy(temporary.begin(), temporary.end(), g_temporary);
+  const auto set = [](auto& name, const std::filesystem::path& file) {
+    std::ranges::fill(name, '\0');
+    if (file.native().size() < sizeof(name)) std::ranges::copy(file.native(), name);
+  };
+  set(g_temporary, output.empty() ? output : temporary_name(output));
+  set(g_lock, on_stop_does == OnStop::kFinish ? lock_name(output) : "");
   std::signal(SIGALRM, on_alarm);
   std::signal(SIGINT, on_stop);
   std::signal(SIGTERM, on_stop);

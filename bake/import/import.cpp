@@ -218,7 +218,7 @@ void warn_of_topology(const Scene& scene, const Scene* last, Context& context) {
 
 // The bytes of a glTF: the file's own, or made of it. Its hash goes into `inputs`.
 Result<Bytes> read_scene_file(const fs::path& path, std::uint64_t max_bytes, gltf::InputHashes& inputs,
-                              Context& context) {
+                              Context& context, bool quiet = false) {
   std::error_code ec;
   const auto status = fs::status(path, ec);
   // Pipes and devices could block for ever.
@@ -230,7 +230,7 @@ Result<Bytes> read_scene_file(const fs::path& path, std::uint64_t max_bytes, glt
   if (!foreign) return bytes;
   ImportProcess process;
   process.warn = [&](const std::string& text) {
-    context.warning(text.starts_with("texture ") ? WarningCode("missing-texture") : "converted", text);
+    if (!quiet) context.warning(text.starts_with("texture ") ? WarningCode("missing-texture") : "converted", text);
   };
   process.stopped = [&] { return context.stopped(); };
   process.read = [&](const fs::path& file) {
@@ -297,7 +297,7 @@ Result<ImportedScene> import_gltf(const fs::path& path, const ImportOptions& opt
 
 Result<gltf::InputHashes> hash_inputs(const fs::path& path, const ImportOptions& options, Context& context) {
   gltf::InputHashes inputs;
-  ORIEL_TRY(const Bytes bytes, read_scene_file(path, options.max_bytes, inputs, context));
+  ORIEL_TRY(const Bytes bytes, read_scene_file(path, options.max_bytes, inputs, context, true));
   const std::string file = path.filename().string();
   ORIEL_TRY(const gltf::Container container, gltf::split_container(bytes, file));
   ORIEL_TRY(gltf::JsonDocument json, gltf::JsonDocument::parse(container.json, file));

@@ -14,8 +14,8 @@ struct PixelPlane {
   float at(const Vec2& offset) const { return disparity + glm::dot(slope, offset); }
 };
 
-// By pixel, of a captured map: those of the surfaces along its rays that lie where its disparities say, second ones too
-// (residual maps). The sky's slope is 0, and so is that of what is found no more.
+// By pixel, of a captured map: those of the surfaces along its rays that lie where its disparities say. The sky's slope
+// is 0, and so is that of what is found no more.
 std::vector<PixelPlane> find_planes(const ReflectedSurroundings& surroundings, const RadianceMap& map);
 
 }  // namespace oriel

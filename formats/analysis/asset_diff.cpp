@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "formats/core/hash.h"
 #include "formats/core/json.h"
@@ -9,6 +10,9 @@
 namespace oriel {
 namespace {
 
+Json numbers_of(const DVec3& v) {
+  return std::array{v.x, v.y, v.z};
+}
 Json numbers_of(const Vec3& v) {
   return std::array{v.x, v.y, v.z};
 }
@@ -17,11 +21,14 @@ Json numbers_of(const Vec3& v) {
 class AssetList {
  public:
   void add(const char* kind, const std::string& name, Json members) {
-    std::string key = fmt::format("{} '{}'", kind, name);
-    for (int n = 2; all.contains(key); ++n) key = fmt::format("{} '{}' ({})", kind, name, n);
-    all[key] = std::move(members);
+    const std::string key = fmt::format("{} '{}'", kind, name);
+    const int same = ++count_[key];
+    all[same == 1 ? key : fmt::format("{} ({})", key, same)] = std::move(members);
   }
-  Json all = Json::object();
+  std::map<std::string, Json> all;
+
+ private:
+  std::map<std::string, int> count_;
 };
 
 Json texels_of(const std::vector<Texture>& textures, std::int32_t index) {
@@ -58,7 +65,7 @@ void add_lamps(const Pack& pack, AssetList& list) {
   list.add("light", "sky", {{"radiance", numbers_of(pack.sky)}});
   for (std::size_t i = 0; const SharpLamp& l : pack.sharp_light.lamps)
     list.add("lamp", std::to_string(i++),
-             {{"position", numbers_of(l.position)},
+             {{"position", numbers_of(DVec3(l.position) + pack.mesh.origin)},
               {"direction", numbers_of(l.direction)},
               {"intensity", numbers_of(l.intensity)},
               {"cone", {l.cos_outer, l.inverse_falloff, l.angular_radius_rad}}});
@@ -75,7 +82,9 @@ void add_shapes(const Pack& pack, AssetList& list) {
       lower = glm::min(lower, corner), upper = glm::max(upper, corner);
     }
     list.add(kind, name,
-             {{"triangles", part.index_count / 3}, {"lower", numbers_of(lower)}, {"upper", numbers_of(upper)}});
+             {{"triangles", part.index_count / 3},
+              {"lower", numbers_of(DVec3(lower) + pack.mesh.origin)},
+              {"upper", numbers_of(DVec3(upper) + pack.mesh.origin)}});
   };
   for (const MeshPart& part : pack.mesh.parts)
     if (part.lightmap_page < 0) add("unlit surface", part.name, pack.mesh, part);
@@ -86,18 +95,19 @@ void add_shapes(const Pack& pack, AssetList& list) {
 void add_cameras(const Pack& pack, AssetList& list) {
   for (const Camera& c : pack.cameras)
     list.add("camera", c.name,
-             {{"eye", numbers_of(c.eye)},
+             {{"eye", numbers_of(DVec3(c.eye) + pack.mesh.origin)},
               {"forward", numbers_of(c.forward)},
               {"up", numbers_of(c.up)},
               {"field of view", {c.vertical_fov_rad, c.half_height}}});
   for (const CameraPath& p : pack.paths) {
     Json keys = Json::array();
-    for (const CameraKey& k : p.keys) keys.push_back({k.time_s, numbers_of(k.eye), numbers_of(k.forward)});
+    for (const CameraKey& k : p.keys)
+      keys.push_back({k.time_s, numbers_of(DVec3(k.eye) + pack.mesh.origin), numbers_of(k.forward)});
     list.add("path", p.name, {{"field of view", p.vertical_fov_rad}, {"keys", keys}});
   }
 }
 
-Json assets_of(const Pack& pack) {
+std::map<std::string, Json> assets_of(const Pack& pack) {
   AssetList list;
   add_materials(pack, list);
   add_lamps(pack, list);
@@ -111,34 +121,47 @@ void append_numbers(const Json& json, std::vector<double>& numbers) {
   for (const Json& one : json) append_numbers(one, numbers);
 }
 
-double change_between(const Json& before, const Json& after) {
+// scale: what the largest difference is a share of; 0: the largest number.
+double change_between(const Json& before, const Json& after, double scale) {
   std::vector<double> a, b;
   append_numbers(before, a), append_numbers(after, b);
   if (a.size() != b.size() || a.empty()) return 1;
-  double off = 0, largest = 0;
+  double off = 0, largest = scale;
   for (std::size_t i = 0; i < a.size(); ++i) {
     off = std::max(off, std::fabs(a[i] - b[i]));
-    largest = std::max({largest, std::fabs(a[i]), std::fabs(b[i])});
+    if (scale == 0) largest = std::max({largest, std::fabs(a[i]), std::fabs(b[i])});
   }
   return off / largest;
+}
+
+// A place's change is a share of the building's size, wherever the building stands.
+bool is_place(const std::string& member) {
+  return member == "position" || member == "eye" || member == "lower" || member == "upper";
+}
+double size_of(const Mesh& mesh) {
+  Vec3 lower(std::numeric_limits<float>::max()), upper(-lower);
+  for (const Vec3& p : mesh.positions) lower = glm::min(lower, p), upper = glm::max(upper, p);
+  return mesh.positions.empty() ? 0 : glm::length(DVec3(upper) - DVec3(lower));
 }
 
 }  // namespace
 
 std::vector<AssetChange> diff_assets(const Pack& before, const Pack& after) {
-  const Json a = assets_of(before), b = assets_of(after);
+  const std::map<std::string, Json> a = assets_of(before), b = assets_of(after);
+  const double size = size_of(before.mesh);
   std::vector<AssetChange> changes;
-  for (const auto& [name, members] : a.items()) {
-    const Json* other = b.find(name);
-    if (other == nullptr) {
+  for (const auto& [name, members] : a) {
+    const auto other = b.find(name);
+    if (other == b.end()) {
       changes.push_back({name, "gone", members.dump(), ""});
       continue;
     }
     for (const auto& [member, value] : members.items())
-      if (const Json& now = (*other)[member]; now != value)
-        changes.push_back({name, member, value.dump(), now.dump(), change_between(value, now)});
+      if (const Json& now = other->second[member]; now != value)
+        changes.push_back(
+            {name, member, value.dump(), now.dump(), change_between(value, now, is_place(member) ? size : 0)});
   }
-  for (const auto& [name, members] : b.items())
+  for (const auto& [name, members] : b)
     if (!a.contains(name)) changes.push_back({name, "added", "", members.dump()});
   std::ranges::stable_sort(changes, std::ranges::greater(), &AssetChange::change);
   return changes;

@@ -90,8 +90,12 @@ Status AtomicFile::commit() {
   return {};
 }
 
+fs::path lock_name(const fs::path& path) {
+  return path.string() + ".lock";
+}
+
 Result<OutputLock> OutputLock::take(const fs::path& path) {
-  const fs::path file = path.string() + ".lock";
+  const fs::path file = lock_name(path);
   for (;;) {
     const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (fd < 0) return OutputLock({}, -1);  // whoever writes tells why not
@@ -101,7 +105,8 @@ Result<OutputLock> OutputLock::take(const fs::path& path) {
       char pid[32] = "";
       [[maybe_unused]] const ssize_t told = ::pread(fd, pid, sizeof(pid) - 1, 0);
       lock.path_.clear();
-      return fail(ErrorCode::kIo, path.string(), "is being written by process {}: wait for it, or end it", pid);
+      return fail(ErrorCode::kIo, path.string(), "is being written by {}: wait for it, or end it",
+                  *pid != '\0' ? fmt::format("process {}", pid) : "another process");
     }
     // It may have been another's that ended just now, and removed it.
     struct stat held {

@@ -45,6 +45,7 @@ Status write_file_atomically(const std::filesystem::path& path, std::span<const 
 Status write_text_atomically(const std::filesystem::path& path, std::string_view text);
 
 // Who writes `path`: one process at a time, by a file beside it that the system unlocks however its process ends.
+std::filesystem::path lock_name(const std::filesystem::path& output);
 class OutputLock {
  public:
   // Error kIo where another process holds it, which is named. Where the file system has no locks there is none.

@@ -45,9 +45,9 @@ float extent(vec3 v) { return dot(abs(v), vec3(1.0)); }
 uvec2 half_disk(vec2 across, float off) {
   if (off >= 1.0) return uvec2(0xffffffffu);
   if (off <= -1.0) return uvec2(0u);
-  float x = across.x / (abs(across.x) + abs(across.y));
+  float x = across.x / max(abs(across.x) + abs(across.y), 1e-30);
   int direction = int((across.y < 0.0 ? 3.0 + x : 1.0 - x) * 16.0) & 63;
-  int at = 128 * direction + 2 * int(off * 32.0 + 32.0);
+  int at = 128 * direction + 2 * min(int(off * 32.0 + 32.0), 63);
   ivec2 texel = ivec2(at & 4095, at >> 12);
   return uvec2(texelFetch(u_sharp_words, texel, 0).r, texelFetch(u_sharp_words, texel + ivec2(1, 0), 0).r);
 }

@@ -10,7 +10,8 @@ inline constexpr float kFloorAlbedo = 0.5f;
 inline constexpr std::uint32_t kFloorTexels = 4;  // texels
 inline constexpr float kFloorWidth = 4;           // metres, about the origin
 inline const Vec3 kCandela(400, 300, 200), kLampAbove(0.1f, 2, -0.05f);
-inline constexpr float kWest = -0.3f, kEast = 0.4f, kNorth = -0.25f, kSouth = 0.2f, kBoardHeight = 1;  // a board between
+inline constexpr float kWest = -0.3f, kEast = 0.4f, kNorth = -0.25f, kSouth = 0.2f,
+                       kBoardHeight = 1;  // a board between
 
 constexpr std::uint32_t edges(std::uint32_t flags) {
   return flags << kSharpEdgeShift;

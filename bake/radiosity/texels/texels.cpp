@@ -215,7 +215,7 @@ void leave_out_unfinished(const LightmapScene& scene, std::uint64_t seed, Texels
   leave_out(unfinished, texels);
 }
 
-// Fills pages and places of the texels, and nothing else.
+// Fills pages and places of the texels; all else is as long, and empty.
 Texels place_texels(const Atlas& atlas, std::span<const TexelMapPage> texel_map) {
   Texels texels;
   for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
@@ -237,6 +237,10 @@ Texels place_texels(const Atlas& atlas, std::span<const TexelMapPage> texel_map)
       texels.chart.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);
     }
   }
+  const std::size_t n = texels.count();
+  texels.sample_points.resize(n), texels.visible.resize(n), texels.reach.resize(n), texels.area_m2.resize(n);
+  texels.albedo.resize(n), texels.diffuse_share.resize(n), texels.occlusion_heavy.resize(n);
+  texels.is_cut.resize(n), texels.meets_gap.resize(n);
   return texels;
 }
 
@@ -326,27 +330,11 @@ std::uint32_t Texels::across_wall(std::uint32_t texel, std::uint32_t triangle, c
   return speaks ? found : kNoTexel;
 }
 
-double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i) {
-  double area = 0;
-  for (std::uint32_t f = map.first[i]; f < map.first[i + 1]; ++f) {
-    const TexelFragment& fragment = map.fragments[f];
-    const auto& uv = atlas.uv[fragment.triangle];
-    const DVec2 size(map.width, map.height);
-    const DVec2 a = DVec2(uv[1] - uv[0]) * size, b = DVec2(uv[2] - uv[0]) * size;
-    const double texels = 0.5 * std::abs(a.x * b.y - a.y * b.x);
-    if (texels > 0) area += std::min(1.0, fragment.area / texels) * triangle_area(scene, fragment.triangle);
-  }
-  return area;
-}
-
 Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, TexelUse use) {
   const auto& [t, atlas, texel_map] = scene;
   Texels texels = place_texels(atlas, texel_map);
   texels.eyes.assign(use.eyes.begin(), use.eyes.end());
   const std::size_t n = texels.count();
-  texels.sample_points.resize(n), texels.visible.resize(n), texels.reach.resize(n), texels.area_m2.resize(n),
-      texels.albedo.resize(n), texels.diffuse_share.resize(n), texels.occlusion_heavy.resize(n),
-      texels.is_cut.resize(n), texels.meets_gap.resize(n);
   place_triangles(atlas, texels);
   ORIEL_TRY_VOID(afford_points(scene, stage, use, texels));
   texels.visible.assign(n, kNotFound);

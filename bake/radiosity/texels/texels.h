@@ -155,7 +155,4 @@ struct TexelUse {
 // Lists the texels of all pages in the order of the texel map, with their sample points and visibility. Error kStopped.
 Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, TexelUse use = {});
 
-// The area of the surface under texel i of the map, m².
-double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);
-
 }  // namespace oriel

@@ -154,10 +154,7 @@ TEST(WarningCodes, TheManualListsAllInUse) {
 TEST_F(BakeOutcome, WhatIsUpToDateIsNotBaked) {
   const fs::path pack = folder_.path() / "a.oriel";
   const auto baked = [&](const std::string& options, const std::string& texel = "20cm") {
-    EXPECT_EQ(
-        run("oriel-bake cornell.glb -o a.oriel --report report.json --samples 16 --texel " + texel + " " + options), 0)
-        << log();
-    EXPECT_EQ(report()["status"], "complete");
+    EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --samples 16 --texel " + texel + " " + options), 0) << log();
     return log().find("is up to date") == std::string::npos;
   };
   EXPECT_TRUE(baked(""));
@@ -166,6 +163,7 @@ TEST_F(BakeOutcome, WhatIsUpToDateIsNotBaked) {
   EXPECT_GT(fs::last_write_time(pack), written) << "make asks for that";
   EXPECT_FALSE(baked("", "0.2m")) << "the same in other words";
   EXPECT_TRUE(baked("--cache off"));
+  EXPECT_TRUE(baked("--report report.json")) << "of which a pack does not know all";
   EXPECT_TRUE(baked("--seed 2"));
   EXPECT_TRUE(baked("--seed 2 --require light")) << "nobody asked before";
   EXPECT_FALSE(baked("--seed 2 --require light"));

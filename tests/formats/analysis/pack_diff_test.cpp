@@ -169,10 +169,13 @@ TEST(PackDiff, MaterialsLampsShapesAndCameras) {
   only_change("material 'glue'", "added", 1, [](Pack& p) { p.materials.push_back({.name = "glue"}); });
   only_change("lamp '0'", "intensity", 0.02 / 1.02, [](Pack& p) { p.sharp_light.lamps[0].intensity *= 1.02f; });
   only_change("light 'sky'", "radiance", 1, [](Pack& p) { p.sky = Vec3(1); });
-  only_change("unlit surface 'study'", "upper", 1.0 / 13, [](Pack& p) {
+  Vec3 upper(0), lower(0);
+  for (const Vec3& p : before.mesh.positions) upper = glm::max(upper, p), lower = glm::min(lower, p);
+  const double size = glm::length(DVec3(upper - lower));
+  only_change("unlit surface 'study'", "upper", 1.0 / size, [](Pack& p) {
     for (std::size_t i = 4; i < 8; ++i) p.mesh.positions[i].x += i == 5 || i == 6 ? 1.0f : 0.0f;
   });
-  only_change("camera 'door'", "eye", 1, [](Pack& p) { p.cameras[0].eye.x = 2; });
+  only_change("camera 'door'", "eye", 0.5 / size, [](Pack& p) { p.cameras[0].eye.x += 0.5f; });
   only_change("camera 'door'", "gone", 1, [](Pack& p) { p.cameras.clear(); });
   EXPECT_TRUE(diff_packs(before, before).within(0));
 }
@@ -196,6 +199,10 @@ TEST(PackDiff, SurfacesThatCameWentOrMoved) {
   for (Vec3& p : after.mesh.positions) p.y += 3;
   for (const SurfaceChange& s : diff_packs(before, after).surfaces)
     EXPECT_TRUE(s.same_shape) << "only the origin moved";
+  after.cameras.push_back({.name = "door", .eye = Vec3(1, 4, 2)});
+  Pack with_camera = before;
+  with_camera.cameras.push_back({.name = "door", .eye = Vec3(1, 1, 2)});
+  EXPECT_TRUE(diff_assets(with_camera, after).empty());
 }
 
 TEST(PackDiff, OptionsByName) {
