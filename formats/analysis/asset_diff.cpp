@@ -10,10 +10,8 @@
 namespace oriel {
 namespace {
 
-Json numbers_of(const DVec3& v) {
-  return std::array{v.x, v.y, v.z};
-}
-Json numbers_of(const Vec3& v) {
+template <class V>
+Json numbers_of(const V& v) {
   return std::array{v.x, v.y, v.z};
 }
 

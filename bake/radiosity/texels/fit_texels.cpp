@@ -19,7 +19,6 @@ struct FittedTexel {
   bool whole = false;
 };
 
-// All 0: the value is the mean.
 std::array<float, 8> shares_of(const Reach& reach) {
   const auto along = [&](int axis, int step) {
     const float before = reach.before[axis], after = reach.after[axis];
@@ -65,8 +64,10 @@ std::vector<Vec3> fitted_to(const std::vector<FittedTexel>& list, const std::vec
       lower[k] = glm::min(lower[k], mean[other]), upper[k] = glm::max(upper[k], mean[other]);
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (list[k].whole) continue;
-    const Vec3 down = upper[k] - mean[k], up = mean[k] - lower[k];
-    lower[k] = glm::max(glm::min(lower[k], mean[k] - down), Vec3(0)), upper[k] = glm::max(upper[k], mean[k] + up);
+    // A neighbour with twice the light lies beyond an edge: it tells of no slope.
+    const auto beyond = [&](const Vec3& d) { return d * glm::max(Vec3(0), 1.0f - d / (mean[k] + 1e-30f)); };
+    const Vec3 down = beyond(upper[k] - mean[k]), up = beyond(mean[k] - lower[k]);
+    lower[k] = glm::min(lower[k], mean[k] - down), upper[k] = glm::max(upper[k], mean[k] + up);
   }
   std::vector<Vec3> fitted = mean, next = mean;
   for (int i = 0; i < kIterations; ++i) {

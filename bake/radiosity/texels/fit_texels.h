@@ -24,7 +24,7 @@ struct SampledPage {
 //
 // The mean of a texel at the rim of a chart, or at the foot of a wall, is that of the part which was sampled, beside
 // the texel's middle: B has the weights of that part's reach. Its value is then extrapolated, by no more than it
-// differs from the means around it.
+// differs from the means around it, and less the nearer one of them is to having twice its light.
 //
 // Neighbours are valid texels of the same chart. The sum over a chart stays, within noise and bounds. Standard errors
 // stay: they are those of the means. Finite values of at least 0 remain finite and at least 0.
