@@ -44,7 +44,8 @@ Result<ScenePlan> make_plan(const BakeOptions& asked, bool with_pilot, Context& 
   ORIEL_TRY(const MaterialMaps materials,
             timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
   ORIEL_TRY(FoundReflections reflections, timed("reflectors", [&](auto&) {
-              return find_reflections(options, prepared, materials.summaries, context);
+              return find_reflections(options, prepared, materials.summaries, std::numeric_limits<double>::infinity(),
+                                      context);
             }));
   // At most: which triangles each one shows takes longer to find out.
   const std::vector<std::uint64_t> triangles(reflections.found.reflectors.size(), scene.triangles.size());

@@ -207,9 +207,14 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
   std::vector<float> shown(all.size());
   for (std::uint32_t r = 0; r < all.size(); ++r) {
     double angle = 0;
-    ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, {eyes, kTrialSamples, context.seed}, context));
-    for (const ReflectedSample& s : samples) angle += s.weight;
-    shown[r] = solid_angle_shown(all[r].reflector.area_m2, samples);
+    const auto samples = sample_reflections(surroundings, r, {eyes, kTrialSamples, context.seed}, context);
+    if (!samples && context.stop) return tl::unexpected(samples.error());
+    if (!samples) {  // the most important ones come first
+      found.omitted.push_back({fmt::format("{} reflectors: --time was over before them", all.size() - r), "time-over"});
+      break;
+    }
+    for (const ReflectedSample& s : *samples) angle += s.weight;
+    shown[r] = solid_angle_shown(all[r].reflector.area_m2, *samples);
     if (angle > 0)
       seen.emplace_back(-angle * all[r].reflectance, r);
     else

@@ -170,13 +170,15 @@ class Viewpoint {
 Status place_surround_maps(const Accel& accel, std::span<const Vec3> eyes, Context& context,
                            FoundCurvedReflectors& found) {
   if (eyes.empty()) return {};
-  return parallel_for(context, "", found.reflectors.size(), [&](std::size_t i) {
+  (void)parallel_for(context, "", found.reflectors.size(), [&](std::size_t i) {
     FoundCurvedReflector& reflector = found.reflectors[i];
     Vec3& centre = found.maps[reflector.reflector.map].centre;
     const auto best = Viewpoint(accel, eyes, reflector, found.objects[reflector.object], context.seed).best(centre);
     centre = best.place;
     reflector.view = best.view;
   });
+  return context.stop ? fail(ErrorCode::kStopped, "reflectors", "stopped")
+                      : Status();  // late: others stay where they are
 }
 
 }  // namespace oriel

@@ -106,7 +106,7 @@ Status time_reflections(const BakeTask& bake, Pack& dark, PlannedReflections& pl
 Result<double> fit_reflections(const BakeTask& bake, const TimeBudget& budget, PlannedReflections& planned) {
   Pack dark;
   if (planned.has_images()) {
-    const double until = budget.left() - budget.for_timing();
+    const double until = budget.left() - budget.for_each_other();
     ORIEL_TRY(const bool tried, done_in_time(
                                     bake.context, [&] { return budget.left() < until; },
                                     [&] { return time_reflections(bake, dark, planned); }));

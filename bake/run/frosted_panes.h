@@ -9,6 +9,7 @@ namespace oriel {
 // Pack::frosted_panes, where reflections are baked. Appends to `emitters` those that they list, and to `omissions` what
 // is left out. Error kStopped.
 Result<std::vector<Reflector>> list_frosted_panes(const BakeTask& bake, const AssembledMesh& mesh,
-                                                  std::vector<Emitter>& emitters, std::vector<Warning>& omissions);
+                                                  const std::function<bool()>& late, std::vector<Emitter>& emitters,
+                                                  std::vector<Warning>& omissions);
 
 }  // namespace oriel

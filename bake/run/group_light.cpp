@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "bake/jobs/parallel.h"
 #include "bake/radiance/punctual_emitter.h"
 #include "bake/radiance/sun_emitter.h"
 #include "bake/scene/shade.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::uint32_t kNobody = ~0u;
 constexpr std::uint32_t kShareRays = 4096, kProbeRays = 256;  // of a map, of a probe
+constexpr std::uint32_t kHastyRays = 16;                      // of either, once --time is over
 
 bool shines(const Material& material) {
   return !material.unlit && max_component(material.emission) > 0;
@@ -92,8 +94,7 @@ class Shares {
   Shares(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light)
       : baked_(baked), light_(light), scene_(baked.accel.scene()) {}
 
-  void add(const Ray& ray, std::vector<DVec3>& sum, std::uint64_t& rays) const {
-    ++rays;
+  void add(const Ray& ray, std::vector<DVec3>& sum) const {
     const Hit hit = baked_.accel.intersect(ray);
     if (!hit) {
       each_owner(scene_, sky_owner(scene_), ray.direction, sky_radiance(scene_, ray.direction),
@@ -112,7 +113,9 @@ class Shares {
     }
   }
 
-  std::vector<Vec3> of(const std::vector<DVec3>& sum) const {
+  std::vector<Vec3> of(std::uint32_t count, const std::function<Ray(std::uint32_t)>& ray) const {
+    std::vector<DVec3> sum(scene_.light_groups.size(), DVec3(0));
+    for (std::uint32_t k = 0; k < count; ++k) add(ray(k), sum);
     DVec3 total(0);
     for (const DVec3& part : sum) total += part;
     std::vector<Vec3> shares;
@@ -142,42 +145,37 @@ void find_colors(const Scene& scene, Pack& pack) {
   }
 }
 
-void find_shares(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light, std::uint64_t& rays,
-                 Pack& pack) {
+// Once it is `late`, few rays are traced of each place.
+Status find_shares(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light,
+                   const std::function<bool()>& late, const Stage& stage, Pack& pack) {
   const Shares shares(baked, light);
-  std::vector<LightGroup>& groups = pack.light_groups;
-  for (std::size_t r = 0; r < pack.reflectors.size(); ++r) {
+  const auto find = [&](std::vector<Vec3> LightGroup::*list, std::size_t count, std::uint32_t rays,
+                        const auto& ray) -> Status {
+    std::vector<std::vector<Vec3>> found(count);
+    ORIEL_TRY_VOID(parallel_for(stage, "", count, [&](std::size_t i) {
+      const std::uint32_t traced = late() ? kHastyRays : rays;
+      found[i] = shares.of(traced, [&](std::uint32_t k) { return ray(i, k); });
+      stage.count(traced);
+    }));
+    for (const std::vector<Vec3>& of_place : found)
+      for (std::size_t g = 0; g < of_place.size(); ++g) (pack.light_groups[g].*list).push_back(of_place[g]);
+    return {};
+  };
+  ORIEL_TRY_VOID(find(&LightGroup::reflectors, pack.reflectors.size(), kShareRays, [&](std::size_t r, std::uint32_t k) {
     const Reflector& reflector = pack.reflectors[r];
-    std::vector<DVec3> sum(groups.size(), DVec3(0));
     const Mat3 rotation(reflector.pack_from_reflector);
-    for (std::uint32_t k = 0; k < kShareRays; ++k) {
-      Sampler sampler(r, 0, k);
-      const Vec2 at = glm::mix(reflector.lower, reflector.upper, sampler.next2());
-      const Vec3 direction = rotation * square_to_cosine_hemisphere(sampler.next2());
-      const Vec3 origin(reflector.pack_from_reflector * Vec4(at, 0, 1));
-      shares.add({origin + 1e-3f * rotation[2], direction}, sum, rays);
-    }
-    const std::vector<Vec3> found = shares.of(sum);
-    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].reflectors.push_back(found[g]);
-  }
-  for (std::size_t m = 0; m < pack.surround_maps.size(); ++m) {
-    std::vector<DVec3> sum(groups.size(), DVec3(0));
-    for (std::uint32_t k = 0; k < kShareRays; ++k) {
-      Sampler sampler(m, 1, k);
-      shares.add({pack.surround_maps[m].centre, square_to_sphere(sampler.next2())}, sum, rays);
-    }
-    const std::vector<Vec3> found = shares.of(sum);
-    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].surrounds.push_back(found[g]);
-  }
-  for (std::size_t p = 0; p < pack.light_field.probes.size(); ++p) {
-    std::vector<DVec3> sum(groups.size(), DVec3(0));
-    for (std::uint32_t k = 0; k < kProbeRays; ++k) {
-      Sampler sampler(p, 2, k);
-      shares.add({pack.light_field.probes[p].position, square_to_sphere(sampler.next2())}, sum, rays);
-    }
-    const std::vector<Vec3> found = shares.of(sum);
-    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].probes.push_back(found[g]);
-  }
+    Sampler sampler(r, 0, k);
+    const Vec2 at = glm::mix(reflector.lower, reflector.upper, sampler.next2());
+    const Vec3 direction = rotation * square_to_cosine_hemisphere(sampler.next2());
+    return Ray{Vec3(reflector.pack_from_reflector * Vec4(at, 0, 1)) + 1e-3f * rotation[2], direction};
+  }));
+  const auto around = [](const Vec3& place, std::uint64_t seed, std::uint64_t stream, std::uint32_t k) {
+    return Ray{place, square_to_sphere(Sampler(seed, stream, k).next2())};
+  };
+  ORIEL_TRY_VOID(find(&LightGroup::surrounds, pack.surround_maps.size(), kShareRays,
+                      [&](std::size_t m, std::uint32_t k) { return around(pack.surround_maps[m].centre, m, 1, k); }));
+  return find(&LightGroup::probes, pack.light_field.probes.size(), kProbeRays,
+              [&](std::size_t p, std::uint32_t k) { return around(pack.light_field.probes[p].position, p, 2, k); });
 }
 
 // The pack opens at one hour. Who knows nothing of days shows that too: its group many times, the others not at all.
@@ -194,10 +192,10 @@ void show_day(const Scene& scene, Pack& pack) {
 
 }  // namespace
 
-void assemble_light_groups(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light,
-                           std::uint64_t& rays, Pack& pack) {
+Status assemble_light_groups(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light,
+                             const std::function<bool()>& late, const Stage& stage, Pack& pack) {
   const Scene& scene = baked.accel.scene();
-  if (light.empty()) return;
+  if (light.empty()) return {};
   for (const SceneLightGroup& group : scene.light_groups) {
     LightGroup& added = pack.light_groups.emplace_back();
     added.name = group.name, added.lamps = group.lamps;
@@ -216,9 +214,10 @@ void assemble_light_groups(const BakedScene& baked, const std::vector<std::vecto
   if (max_component(scene.sky) > 0 && scene.day.empty()) pack.light_groups[scene.sky_group].sky = true;
   show_day(scene, pack);
   find_colors(scene, pack);
-  find_shares(baked, light, rays, pack);
+  ORIEL_TRY_VOID(find_shares(baked, light, late, stage, pack));
   for (std::uint32_t p = 0; p < pack.lightmaps.size(); ++p)
     pack.page_groups.push_back(groups_of_page(pack.lightmaps[p], p, light));
+  return {};
 }
 
 }  // namespace oriel

@@ -82,15 +82,18 @@ FieldBox field_box(const Scene& scene, std::span<const WalkGrid> grids, std::spa
 
 }  // namespace
 
-Result<BakedMovers> bake_movers(const BakeTask& bake, MaterialMaps& materials, std::uint64_t& rays) {
+Result<BakedMovers> bake_movers(const BakeTask& bake, double seconds, MaterialMaps& materials, std::uint64_t& rays) {
   const BakeOptions& options = bake.options;
+  const ElapsedTime clock;
+  TransferOptions how = options.transfer;
+  how.enough = [&] { return clock.spent() > seconds; };
   Context& context = bake.context;
   BakedMovers baked;
   std::atomic<std::uint64_t> counted{0};
   for (const TakenMover& t : bake.prepared.movers) {
     ORIEL_TRY(const Accel accel, Accel::build(t.scene, {options.reproducible, context.threads}));
     const StageInputs inputs(context, SurfacesOf{t.scene}, options.transfer);
-    ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, options.transfer, {context, &counted}));
+    ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, how, {context, &counted}));
     Mover mover;
     mover.name = t.mover.name;
     mover.rest = t.mover.rest;
@@ -119,14 +122,14 @@ Result<BakedMovers> bake_movers(const BakeTask& bake, MaterialMaps& materials, s
 }
 
 Result<LightField> bake_light_field(const BakeTask& bake, std::span<const WalkGrid> floors,
-                                    std::function<bool()> enough, std::uint64_t& rays) {
+                                    std::function<double()> left, std::uint64_t& rays) {
   const BakedScene baked = bake.baked();
   const SurfaceRadiance radiance = [&](const Hit& hit, const Vec3& towards_eye, bool with_emission) {
     return baked_radiance(baked, {.hit = hit, .towards_eye = towards_eye, .emission = with_emission});
   };
   ProbeOptions probes = bake.options.probes;
   probes.bands = bake.options.transfer.bands;
-  probes.enough = std::move(enough);
+  probes.left = std::move(left);
   const FieldBox box = field_box(bake.scene(), floors, bake.prepared.movers);
   const StageInputs inputs(bake.context, LitScene{baked}, box.lower, box.upper, probes);
   std::atomic<std::uint64_t> counted{0};

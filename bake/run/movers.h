@@ -22,12 +22,12 @@ struct BakedMovers {
 
 // Every mover with its transfer, compressed. The summaries of the materials that only movers have go into `materials`.
 // Adds to `rays`. Errors kStopped, kUsage.
-Result<BakedMovers> bake_movers(const BakeTask& bake, MaterialMaps& materials, std::uint64_t& rays);
+Result<BakedMovers> bake_movers(const BakeTask& bake, double seconds, MaterialMaps& materials, std::uint64_t& rays);
 
 // The light field over where people walk (`floors`), or over the scene where that is not known, and over where the
-// movers' animations take them: from the lightmaps. It is refined until there is `enough`. Adds to `rays`. Errors
-// kStopped, kUsage.
+// movers' animations take them: from the lightmaps. It takes `left` seconds, which may be infinite. Adds to `rays`.
+// Errors kStopped, kUsage.
 Result<LightField> bake_light_field(const BakeTask& bake, std::span<const WalkGrid> floors,
-                                    std::function<bool()> enough, std::uint64_t& rays);
+                                    std::function<double()> left, std::uint64_t& rays);
 
 }  // namespace oriel

@@ -29,19 +29,12 @@ constexpr double kLeastLight_s = 0.1;  // that a lightmap takes
 constexpr double kLedgerRays = 0.01;   // of the lightmap's
 
 // What a stage makes that the bake can do without: none where --time is over before, or the user wants to finish.
-template <class Stage>
-auto unless_late(const TimeBudget& budget, Context& context, const Stage& stage)
-    -> Result<std::optional<std::decay_t<decltype(*stage())>>> {
-  std::optional<std::decay_t<decltype(*stage())>> made;
-  const auto late = [&] { return context.finish || budget.left() <= 0; };
-  ORIEL_TRY_VOID(done_in_time(context, late, [&] { return stage().map([&](auto&& all) { made = std::move(all); }); }));
+template <class Made>
+auto unless(const std::function<bool()>& late, Context& context, const Made& make)
+    -> Result<std::optional<std::decay_t<decltype(*make())>>> {
+  std::optional<std::decay_t<decltype(*make())>> made;
+  ORIEL_TRY_VOID(done_in_time(context, late, [&] { return make().map([&](auto&& all) { made = std::move(all); }); }));
   return made;
-}
-
-void leave_out_kernels(MaterialMaps& materials, std::vector<Warning>& omissions) {
-  omissions.emplace_back("kernels: left out by --only");
-  materials.kernels.clear();
-  for (auto& kernel : materials.kernel) kernel = -1;
 }
 
 // One bake: what its stages hand on to each other. Each stage is a function; run() names them in their order.
@@ -88,8 +81,8 @@ class Bake {
     ORIEL_TRY(pack().light_field, bake_light_field_of_movers());
     pack().movers = std::move(movers.movers);
     ORIEL_TRY(pack().frosted_panes, find_frosted_panes(mesh, pack().emitters));
-    assemble(std::move(materials), std::move(mesh), light.groups);
-    ORIEL_TRY(const Start start, choose_start());
+    ORIEL_TRY_VOID(assemble(std::move(materials), std::move(mesh), light.groups));
+    ORIEL_TRY(const Start start, timed_("start", [&](auto&) { return choose_start(); }));
     hash_sets(pack());
     ORIEL_TRY_VOID(check());
     describe({start, sets.report, reflections.report, movers.reports});
@@ -131,8 +124,9 @@ class Bake {
   // None where reflections are left out.
   Result<FoundReflections> find_reflectors(const MaterialMaps& materials) {
     if (!options_.with_radiance) return FoundReflections();
-    return timed_("reflectors",
-                  [&](auto&) { return find_reflections(options_, prepared_, materials.summaries, context_); });
+    return timed_("reflectors", [&](auto&) {
+      return find_reflections(options_, prepared_, materials.summaries, budget_.for_each_other(), context_);
+    });
   }
 
   // Each reflector's way, by what it shows; the viewpoints of those that have maps.
@@ -176,7 +170,8 @@ class Bake {
 
   Result<BakedMovers> bake_transfer_of_movers(MaterialMaps& materials) {
     if (prepared_.movers.empty()) return BakedMovers();
-    return timed_("transfer", [&](std::uint64_t& rays) { return bake_movers(task(), materials, rays); });
+    return timed_("transfer",
+                  [&](std::uint64_t& rays) { return bake_movers(task(), budget_.for_each_other(), materials, rays); });
   }
 
   // Makes maps as large as --time allows; the seconds that all stages behind the lightmap are likely to take.
@@ -228,8 +223,7 @@ class Bake {
   Result<Ledger> keep_energy_ledger(const Radiosity& light) {
     ORIEL_TRY(auto ledger, timed_("ledger", [&](std::uint64_t& rays) {
                 const auto at_most = static_cast<std::uint64_t>(kLedgerRays * static_cast<double>(light.report.rays));
-                auto kept =
-                    unless_late(budget_, context_, [&] { return keep_ledger(laid_out(), light, at_most, context_); });
+                auto kept = unless(late_, context_, [&] { return keep_ledger(laid_out(), light, at_most, context_); });
                 if (kept && *kept) rays = (*kept)->rays;
                 return kept;
               }));
@@ -258,7 +252,7 @@ class Bake {
   // Left out where the user or the time wants the bake to finish.
   Result<BakedReflections> reflections_in_time(PlannedReflections planned, const MaterialMaps& materials,
                                                const AssembledMesh& mesh) {
-    const Interruptible until(context_, [&] { return context_.finish || budget_.left() <= writing_s(); });
+    const Interruptible until(context_, late_);
     auto made = bake_reflections(task(), planned, materials, mesh);
     if (made || made.error().code != ErrorCode::kStopped || context_.stop) return made;
     const Warning why =
@@ -287,40 +281,41 @@ class Bake {
         result_.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
       return LightField();
     }
-    std::atomic<bool> late{false};
-    const auto enough = [&] {
-      if (context_.finish || budget_.left() <= writing_s()) late = true;
-      return late.load();
-    };
+    const auto left = [this] { return context_.finish ? 0 : budget_.left() - writing_s(); };
     ORIEL_TRY(LightField field, timed_("probes", [&](std::uint64_t& rays) {
-                return bake_light_field(task(), pack().walk_grids, enough, rays);
+                return bake_light_field(task(), pack().walk_grids, left, rays);
               }));
-    if (late) result_.omissions.emplace_back("light field: its last refinement is left out, the bake was to end");
+    if (late_()) result_.omissions.emplace_back("light field: its last refinement is left out, the bake was to end");
     return field;
   }
 
   // Appends to `emitters` those that only panes show.
   Result<std::vector<Reflector>> find_frosted_panes(const AssembledMesh& mesh, std::vector<Emitter>& emitters) {
     context_.foretell("writing", 0);
-    return timed_("panes", [&](auto&) { return list_frosted_panes(task(), mesh, emitters, result_.omissions); });
+    return timed_("panes", [&](auto&) { return list_frosted_panes(task(), mesh, late_, emitters, result_.omissions); });
   }
 
   // groups: as Radiosity::groups.
-  void assemble(MaterialMaps materials, AssembledMesh mesh, const std::vector<std::vector<LightmapPage>>& groups) {
-    if (!options_.with_material) leave_out_kernels(materials, result_.omissions);
+  Status assemble(MaterialMaps materials, AssembledMesh mesh, const std::vector<std::vector<LightmapPage>>& groups) {
+    if (!options_.with_material) {
+      result_.omissions.emplace_back("kernels: left out by --only");
+      materials.kernels.clear(), materials.kernel.assign(materials.kernel.size(), -1);
+    }
     assemble_scene(scene(), std::move(materials), std::move(mesh), pack());
     for (Material& material : pack().materials)
       if (material.unlit) material.emission = Vec3(unlit_white_);
-    (void)timed_("light groups", [&](std::uint64_t& rays) -> Status {
-      assemble_light_groups(task().baked(), groups, rays, pack());
-      return {};
+    return timed_("light groups", [&](std::uint64_t& rays) {
+      std::atomic<std::uint64_t> traced{0};
+      const Status status = assemble_light_groups(task().baked(), groups, late_, {context_, &traced}, pack());
+      rays += traced;
+      return status;
     });
   }
 
   // Adds a camera to a scene that has none.
   Result<Start> choose_start() {
     if (!pack().cameras.empty() || !pack().paths.empty()) return Start::kOfScene;
-    ORIEL_TRY(FirstLook first, find_start(task()));
+    ORIEL_TRY(FirstLook first, find_start(task(), late_));
     pack().cameras.push_back(std::move(first.camera));
     return first.inside ? Start::kInside : Start::kOutside;
   }
@@ -341,7 +336,8 @@ class Bake {
   // What the pack says of itself.
   void describe(const Reports& reports) {
     tell_dropped(accel(), result_.findings);
-    tell_backs(accel(), sample_eyes(prepared_.region, kLightmapEyes, context_.seed), context_.seed, result_.findings);
+    if (!late_())
+      tell_backs(accel(), sample_eyes(prepared_.region, kLightmapEyes, context_.seed), context_.seed, result_.findings);
     judge_stages(result_, context_, result_.shortfalls);
     // With --time alone it goes on as long as that lasts: nobody asked for an error.
     const double asked = budget_.limited() && !options_.error_named ? 0 : options_.radiosity.error;
@@ -358,6 +354,8 @@ class Bake {
     if (context_.units) result_.units = context_.units->share();
   }
 
+  // Whether the bake is to end with what there is.
+  const std::function<bool()> late_ = [this] { return context_.finish || budget_.left() <= writing_s(); };
   double writing_s() const { return TimeBudget::writing(bytes_of(prepared_, {})); }
   bool wants_light_field() const { return options_.with_transfer && prepared_.wants_light_field(); }
   const Scene& scene() const { return prepared_.scene(); }

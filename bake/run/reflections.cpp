@@ -167,7 +167,10 @@ double reused_s(const Context& context) {
 }  // namespace
 
 Result<FoundReflections> find_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                          std::span<const MaterialSummary> materials, Context& context) {
+                                          std::span<const MaterialSummary> materials, double seconds,
+                                          Context& context) {
+  const ElapsedTime clock;
+  const Interruptible until(context, [&] { return clock.spent() > seconds; });
   const Accel& accel = *prepared.accel;
   FoundReflections all;
   all.region = prepared.region;

@@ -23,7 +23,7 @@ struct FoundReflections {
 // Finds the reflectors of a scene that eyes of its region see, once its lightmap is laid out. Traces no ray where no
 // material may be one. Error kStopped.
 Result<FoundReflections> find_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                          std::span<const MaterialSummary> materials, Context& context);
+                                          std::span<const MaterialSummary> materials, double seconds, Context& context);
 
 struct ReflectionReport {
   std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for

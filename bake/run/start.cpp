@@ -2,7 +2,7 @@
 
 namespace oriel {
 
-Result<FirstLook> find_start(const BakeTask& bake) {
+Result<FirstLook> find_start(const BakeTask& bake, const std::function<bool()>& enough) {
   const BakedScene baked = bake.baked();
   std::vector<WalkGrid> floors = bake.prepared.region.grids;
   if (bake.options.eyes.source != EyeSource::kWalk) {
@@ -14,7 +14,7 @@ Result<FirstLook> find_start(const BakeTask& bake) {
   const SurfaceLight light = [&](const Hit& hit, const Vec3& towards_eye) {
     return baked_radiance(baked, {.hit = hit, .towards_eye = towards_eye});
   };
-  return find_first_look(baked.accel, floors, light, bake.context);
+  return find_first_look(baked.accel, floors, light, bake.context, enough);
 }
 
 }  // namespace oriel

@@ -22,7 +22,8 @@ class TimeBudget : public ElapsedTime {
   double for_atlas() const { return kAtlas * std::max(left(), kLate * whole_); }
   double for_views() const { return kViews * left(); }  // choosing viewpoints
   double for_visible_sets() const { return kSets * left(); }
-  double for_timing() const { return kTiming * left(); }  // finding out how long capture takes
+  // Finding reflectors; movers' own shadows; finding out how long capture takes.
+  double for_each_other() const { return kOther * left(); }
   double for_maps() const { return kMaps * left(); }
   double for_light_field() const { return kField * std::max(0.0, left()); }
   // Until a pack of so many bytes of images is written.
@@ -32,7 +33,7 @@ class TimeBudget : public ElapsedTime {
   bool missed() const { return limited() && spent() > whole_ + kLate_s + kLate * whole_; }
 
  private:
-  static constexpr double kAtlas = 0.2, kViews = 0.15, kSets = 0.2, kTiming = 0.1;  // of the time that is left
+  static constexpr double kAtlas = 0.2, kViews = 0.15, kSets = 0.2, kOther = 0.1;  // of the time that is left
   static constexpr double kMaps = 0.5, kField = 0.2;  // of what is left when the lightmap begins
   static constexpr double kUnforeseen = 1.3;          // times longer than foretold
   static constexpr double kWritten_per_s = 25e6;      // bytes of maps and lightmaps

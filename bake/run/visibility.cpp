@@ -157,7 +157,7 @@ Result<SceneSets> bake_visibility(const BakeTask& bake, const SetEyes& onlookers
   const std::string why_not = why_not_visible_sets(options, mesh.first_index.size(), onlookers.grids);
   if (!why_not.empty()) omissions.push_back("visible sets: " + why_not);
   const bool reflected = wants_reflected_sets(options, mesh.first_index.size(), onlookers);
-  if (!why_not.empty() && !reflected) return sets;
+  if ((!why_not.empty() && !reflected) || seconds <= 0) return sets;
   const VisibilityOptions& o = options.visibility;
   const auto triangles = static_cast<std::uint32_t>(mesh.first_index.size());
   const TriangleGroups groups =

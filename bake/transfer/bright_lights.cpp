@@ -75,22 +75,23 @@ std::vector<BrightLights::Shine> BrightLights::rank(const Vec3& p, std::uint64_t
   return shines;
 }
 
-Status BrightLights::choose(std::span<const Vec3> points, int strongest, Context& context) {
+Status BrightLights::choose(std::span<const Vec3> points, int strongest, const std::function<bool()>& enough,
+                            Context& context) {
   seed_ = context.seed;
   strongest_ = strongest;
   std::vector<double> lux(candidates_.size());
   if (strongest > 0 && !candidates_.empty()) {
-    std::vector<std::vector<Shine>> ranked(points.size());
+    ranked_.assign(points.size(), {});
     UnitLoop loop{.stage = "bright lights", .count = points.size()};
     loop.rays = static_cast<double>(kShadowRays * candidates_.size());
     loop.inputs = [&](std::size_t i, Archive& key) { key(i, points[i]); };
     loop.compute = [&](std::size_t i) {
-      ranked[i] = rank(points[i], i);
+      ranked_[i] = rank(points[i], i);
       return 0;
     };
-    loop.results = [&](std::size_t i, Archive& archive) { archive(ranked[i]); };
-    ORIEL_TRY_VOID(parallel_units(context, loop));
-    for (std::vector<Shine>& shines : ranked)
+    loop.results = [&](std::size_t i, Archive& archive) { archive(ranked_[i]); };
+    ORIEL_TRY_VOID(done_in_time(context, enough, [&] { return parallel_units(context, loop); }));
+    for (const std::vector<Shine>& shines : ranked_)
       for (std::size_t i = 0; i < std::min(shines.size(), static_cast<std::size_t>(strongest)); ++i)
         if (shines[i].lux > kLeastShare * shines[0].lux) lux[shines[i].candidate] += shines[i].lux;
   }
@@ -163,7 +164,8 @@ LightsAt BrightLights::at(const Vec3& p, std::uint64_t stream) const {
   for (std::size_t i = 0; i < listed_.size(); ++i) out.kept |= std::uint64_t{1} << i;
   int left = strongest_;
   float strongest = 0;
-  for (const Shine& shine : rank(p, stream)) {
+  const bool known = stream < ranked_.size() && !ranked_[stream].empty();
+  for (const Shine& shine : known ? ranked_[stream] : rank(p, stream)) {
     strongest = std::max(strongest, shine.lux);
     const int place = place_[shine.candidate];
     const bool bright = place >= 0 && left > 0 && shine.lux > kLeastShare * strongest;

@@ -23,8 +23,9 @@ class BrightLights {
   BrightLights(const Accel& accel, const LightSet& lights);
 
   // Lists the `strongest` lights of every point, by the irradiance of a plane that faces them, shadows included; those
-  // that shine most on all of them where they are more than kMaxBrightLights. Error kStopped.
-  Status choose(std::span<const Vec3> points, int strongest, Context& context);
+  // that shine most on all of them where they are more than kMaxBrightLights. Asks no more points once there is enough;
+  // enough() may be empty. Error kStopped.
+  Status choose(std::span<const Vec3> points, int strongest, const std::function<bool()>& enough, Context& context);
 
   // Lists all that may be bright lights, or the first kMaxBrightLights of them; how many they are.
   std::size_t choose_all();
@@ -36,7 +37,8 @@ class BrightLights {
   const PolygonLight* of_triangle(std::uint32_t triangle) const;
   int of_light(std::uint32_t light) const { return of_light_[light]; }
 
-  // At one point, for the same number of `strongest`. The point's number seeds its shadow rays.
+  // At one point, for the same number of `strongest`. The point's number seeds its shadow rays: that of choose() where
+  // it was asked there.
   LightsAt at(const Vec3& p, std::uint64_t stream) const;
 
  private:
@@ -63,6 +65,7 @@ class BrightLights {
   int strongest_ = 0;
   std::vector<PolygonLight> polygons_;
   std::vector<Candidate> candidates_;
+  std::vector<std::vector<Shine>> ranked_;  // by point that choose() asked
   std::vector<std::int16_t> place_;         // by candidate: in listed_, or -1
   std::vector<std::size_t> listed_;         // candidates
   std::vector<std::uint32_t> of_triangle_;  // into polygons_, or ~0u; empty: there is none

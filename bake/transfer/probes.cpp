@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <map>
 
 #include "bake/jobs/parallel.h"
@@ -32,20 +33,18 @@ class FieldBake {
     lay_grid(box);
     std::vector<Vec3> points;
     for (const LightProbe& probe : field_.probes) points.push_back(probe.position);
-    ORIEL_TRY_VOID(bright_.choose(points, options_.bright_lights, context_));
+    ORIEL_TRY_VOID(bright_.choose(
+        points, options_.bright_lights, [this, half = 0.5 * left()] { return left() < half; }, context_));
     field_.lights = bright_.list();
-    ORIEL_TRY_VOID(measure(0));
+    ORIEL_TRY(bool in_time, measure(0));
+    if (!in_time) tell_unmeasured();
     std::size_t first = 0;
-    for (int level = 1; level <= options_.levels; ++level) {
+    for (int level = 1; in_time && level <= options_.levels; ++level) {
       const std::size_t cells = field_.cells.size(), probes = field_.probes.size();
-      LightField before = options_.enough ? field_ : LightField();
+      LightField before = field_;
       refine(first, level);
-      const Interruptible until(context_, options_.enough);
-      if (const Status measured = measure(probes); !measured) {
-        if (context_.stop || !options_.enough) return tl::unexpected(measured.error());
-        field_ = std::move(before);
-        break;
-      }
+      ORIEL_TRY(in_time, measure(probes));
+      if (!in_time) field_ = std::move(before);
       first = cells;
     }
     field_.error = squared_sum_ > 0 ? static_cast<float>(std::sqrt(squared_difference_ / squared_sum_)) : 0;
@@ -105,29 +104,49 @@ class FieldBake {
     cell_place_.push_back(at);
   }
 
-  // The probes from `first` on.
-  Status measure(std::size_t first) {
+  double left() const { return options_.left ? options_.left() : std::numeric_limits<double>::infinity(); }
+  void tell_unmeasured() {
+    std::size_t count = 0;
+    for (LightProbe& probe : field_.probes) {
+      if (!probe.sh.empty()) continue;
+      ++count;
+      probe.sh.resize(3 * static_cast<std::size_t>(sh_count(options_.bands)));
+      probe.depth.assign(std::size_t{options_.depth_side} * options_.depth_side, Vec2(1));
+    }
+    context_.warning("time-over", fmt::format("light field: {} of {} probes have the light of the nearest other, as "
+                                              "--time was over",
+                                              count, field_.probes.size()));
+  }
+
+  // The probes from `first` on: whether there was time for all. Of the grid, one is measured at least that is in no
+  // wall, and what is measured stays; other levels may be left out.
+  Result<bool> measure(std::size_t first) {
     std::vector<MeasuredProbe> measured(field_.probes.size() - first);
-    if (measured.empty()) return {};
+    if (measured.empty()) return true;
+    std::atomic<bool> any{first > 0};
+    const auto enough = [&] { return any && left() <= 0; };
     UnitLoop loop{.stage = "probes", .count = measured.size(), .rays = static_cast<double>(options_.samples)};
     loop.inputs = [&](std::size_t i, Archive& key) { key(first + i, field_.probes[first + i].position); };
     loop.compute = [&](std::size_t i) {
       std::uint64_t rays = 0;
       measured[i] = measure_probe(scene_, field_.probes[first + i].position, first + i, rays);
+      if (measured[i].probe.valid) any = true;
       return rays;
     };
     loop.results = [&](std::size_t i, Archive& archive) {
       archive(measured[i].probe, measured[i].squared_difference, measured[i].squared_sum);
     };
-    ORIEL_TRY_VOID(parallel_units(stage_, loop));
+    ORIEL_TRY(const bool all, done_in_time(context_, enough, [&] { return parallel_units(stage_, loop); }));
+    if (!all && first > 0) return false;
     for (std::size_t i = 0; i < measured.size(); ++i) {
+      if (measured[i].probe.sh.empty()) continue;
       if (measured[i].probe.valid) {
         squared_difference_ += measured[i].squared_difference;
         squared_sum_ += measured[i].squared_sum;
       }
       field_.probes[first + i] = std::move(measured[i].probe);
     }
-    return {};
+    return all;
   }
 
   // Luminance of the first two bands.

@@ -11,11 +11,13 @@ struct ProbeOptions {
   float spacing_m = 1;           // of the grid before refinement, at most; larger where max_probes would not do
   std::uint32_t samples = 1024;  // rays a probe; a power of two, at least depth_side²
   std::uint32_t depth_side = 16;
-  std::size_t max_probes = 4096;      // of the grid; refinement may add as many
-  int levels = kMaxFieldLevels;       // of refinement
-  float max_difference = 0.3f;        // between neighbours, relative, beyond which a cell is refined
-  int bright_lights = 4;              // the strongest, of a probe, that its harmonics leave out
-  std::function<bool()> enough = {};  // refinement ends once this is true: the level under way is left out
+  std::size_t max_probes = 4096;  // of the grid; refinement may add as many
+  int levels = kMaxFieldLevels;   // of refinement
+  float max_difference = 0.3f;    // between neighbours, relative, beyond which a cell is refined
+  int bright_lights = 4;          // the strongest, of a probe, that its harmonics leave out
+  // Seconds, none for all that it takes. Once they are over, the level of refinement under way is left out; probes of
+  // the grid that are not measured by then have the light of the nearest, with a warning.
+  std::function<double()> left = {};
 };
 inline void fields(Archive& archive, ProbeOptions& o) {
   archive(o.bands, o.spacing_m, o.samples, o.depth_side, o.max_probes, o.levels, o.max_difference, o.bright_lights);

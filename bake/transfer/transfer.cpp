@@ -91,16 +91,19 @@ class TransferBake {
 
   Result<VertexTransfer> run() {
     unshadowed();
-    ORIEL_TRY_VOID(pass("transfer", std::max(16u, options_.samples), 0, nullptr));
+    ORIEL_TRY(bool in_time, pass("transfer", std::max(16u, options_.samples), 0, nullptr));
     VertexTransfer last = out_;  // of the last bounce alone
-    for (int bounce = 1; bounce <= options_.bounces; ++bounce) {
+    for (int bounce = 1; in_time && bounce <= options_.bounces; ++bounce) {
       VertexTransfer next = out_;
       std::fill(next.coefficients.begin(), next.coefficients.end(), 0.0f);
       std::swap(next, out_);
-      ORIEL_TRY_VOID(pass("transfer bounces", std::max(16u, options_.samples / 4), bounce, &last));
+      ORIEL_TRY(in_time, pass("transfer bounces", std::max(16u, options_.samples / 4), bounce, &last));
       last = out_;
       for (std::size_t i = 0; i < out_.coefficients.size(); ++i) out_.coefficients[i] += next.coefficients[i];
     }
+    if (!in_time)
+      stage_.context.warning("time-over", fmt::format("mover \"{}\": --time was over before all its own shadows",
+                                                      scene_.surfaces[0].name));
     return std::move(out_);
   }
 
@@ -129,8 +132,8 @@ class TransferBake {
   }
 
   // Without `last`: takes what the object hides from the unshadowed transfer. With it: adds what its surfaces, lit by
-  // the last bounce, send. Either way only rays that meet the object count, so that the rest stays exact.
-  Status pass(const char* stage, std::uint32_t samples, int bounce, const VertexTransfer* last) {
+  // the last bounce, send. Only rays that meet the object count: the rest stays exact. Whether there was time for all.
+  Result<bool> pass(const char* stage, std::uint32_t samples, int bounce, const VertexTransfer* last) {
     samples = std::bit_floor(samples);
     const ShiftedNet net(mix64(stage_.context.seed + static_cast<std::uint64_t>(bounce)), samples);
     const std::size_t vertices = scene_.positions.size(), blocks = (vertices + kVerticesATask - 1) / kVerticesATask;
@@ -149,11 +152,12 @@ class TransferBake {
                         count = (end(block) - block * kVerticesATask) * out_.stride();
       archive(errors[block], std::span(out_.coefficients).subspan(first, count));
     };
-    ORIEL_TRY_VOID(parallel_units(stage_, loop));
+    ORIEL_TRY(const bool in_time,
+              done_in_time(stage_.context, options_.enough, [&] { return parallel_units(stage_, loop); }));
     DVec2 sum(0);
     for (const DVec2& e : errors) sum += e;
     if (!last) out_.standard_error = sum.y > 0 ? static_cast<float>(0.5 * std::sqrt(sum.x / sum.y)) : 0;
-    return {};
+    return in_time;
   }
 
   DVec2 vertex(std::uint32_t v, const ShiftedNet& net, std::uint32_t samples, const VertexTransfer* last,

@@ -15,6 +15,7 @@ struct TransferOptions {
   int bands = 5;                 // of spherical harmonics, 2 to 6: bands² coefficients
   int bounces = 2;               // of light between its own parts
   std::uint32_t samples = 1024;  // rays a vertex, and a quarter for each bounce; rounded down to a power of two, >= 16
+  std::function<bool()> enough = {};  // once it is true, other vertices stay unshadowed, with a warning; may be empty
 };
 inline void fields(Archive& archive, TransferOptions& o) {
   archive(o.bands, o.bounces, o.samples);

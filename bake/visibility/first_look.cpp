@@ -179,21 +179,23 @@ struct Choice {
 };
 
 Result<Choice> look_from_floors(const Accel& accel, std::span<const Vec3> eyes, const SurfaceLight& light,
-                                Context& context) {
-  std::vector<std::vector<Seen>> seen(eyes.size());
-  ORIEL_TRY_VOID(
-      parallel_for(context, "", eyes.size(), [&](std::size_t i) { seen[i] = panorama(accel, light, eyes[i]); }));
+                                const std::function<bool()>& enough, Context& context) {
+  std::vector<std::vector<Seen>> seen(eyes.size());  // empty where there was no time to look
+  ORIEL_TRY_VOID(done_in_time(context, enough, [&] {
+    return parallel_for(context, "", eyes.size(), [&](std::size_t i) { seen[i] = panorama(accel, light, eyes[i]); });
+  }));
+  if (seen[0].empty()) seen[0] = panorama(accel, light, eyes[0]);
   Vec3 low = eyes[0], high = eyes[0];
   float widest = 0;
   for (std::size_t i = 0; i < eyes.size(); ++i) {
     low = glm::min(low, eyes[i]);
     high = glm::max(high, eyes[i]);
-    widest = std::max(widest, clearance(seen[i]));
+    if (!seen[i].empty()) widest = std::max(widest, clearance(seen[i]));
   }
   const float typical = typical_luminance(seen), reach = std::max(glm::distance(low, high), 2 * kClear_m);
   std::vector<Choice> best(eyes.size());
   ORIEL_TRY_VOID(parallel_for(context, "", eyes.size(), [&](std::size_t i) {
-    if (clearance(seen[i]) < std::min(kClear_m, widest)) return;
+    if (seen[i].empty() || clearance(seen[i]) < std::min(kClear_m, widest)) return;
     for (int heading = 0; heading < kColumns; ++heading)
       for (const int pitch : kPitches) {
         const View view = judge_heading(seen[i], heading, pitch, typical, reach);
@@ -237,12 +239,12 @@ Result<Choice> look_from_outside(const Accel& accel, const SurfaceLight& light, 
 }  // namespace
 
 Result<FirstLook> find_first_look(const Accel& accel, std::span<const WalkGrid> grids, const SurfaceLight& light,
-                                  Context& context) {
+                                  Context& context, const std::function<bool()>& enough) {
   FirstLook first;
   bool roofed = false;
   double content = 0;
   if (const std::vector<Vec3> eyes = places_on(grids); !eyes.empty()) {
-    ORIEL_TRY(const Choice choice, look_from_floors(accel, eyes, light, context));
+    ORIEL_TRY(const Choice choice, look_from_floors(accel, eyes, light, enough, context));
     first.camera = choice.camera;
     first.inside = choice.view.shown >= kLeastShown;
     content = choice.view.content;

@@ -21,8 +21,9 @@ struct FirstLook {
 // that is lit, times how many surfaces share it, times how far it reaches. Places stand half a metre off what is at
 // eye height, where there are any. From outside, the whole scene in the frame, from the side that shows most: without a
 // floor, where no place's frame shows surfaces in a quarter of it, and where the best place has no roof and shows less
-// than that. Some 200 000 rays; the same for any number of threads. Error kStopped.
+// than that. Some 200 000 rays; the same for any number of threads. Once there is enough(), no further place is looked
+// from. Error kStopped.
 Result<FirstLook> find_first_look(const Accel& accel, std::span<const WalkGrid> grids, const SurfaceLight& light,
-                                  Context& context);
+                                  Context& context, const std::function<bool()>& enough = {});
 
 }  // namespace oriel

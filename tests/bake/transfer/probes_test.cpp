@@ -238,15 +238,40 @@ TEST(Probes, TheirNumberIsBounded) {
 }
 
 // Where time is over, the level of refinement under way is left out, and what was there before stays as it was.
-TEST(Probes, RefinementEndsWhereThereIsEnough) {
+TEST(Probes, RefinementEndsWhereTimeIsOver) {
   const FieldBox box{Vec3(0), {8, 3, 2}};
-  const auto plain = field_of(two_rooms(0.2f), box, {.samples = 256, .levels = 0}, left_is_bright);
+  std::atomic<int> shaded{0};
+  const auto counted = [&](const Vec3& p) { return ++shaded, left_is_bright(p); };
+  const auto plain = field_of(two_rooms(0.2f), box, {.samples = 256, .levels = 0}, counted);
+  const int of_grid = shaded.exchange(0);
   const auto whole = field_of(two_rooms(0.2f), box, {.samples = 256}, left_is_bright);
   ASSERT_GT(whole.cells.size(), plain.cells.size());
-  const auto ended = field_of(two_rooms(0.2f), box, {.samples = 256, .enough = [] { return true; }}, left_is_bright);
+  const auto left = [&] { return shaded <= of_grid ? 1.0 : 0.0; };
+  const auto ended = field_of(two_rooms(0.2f), box, {.samples = 256, .left = left}, counted);
   ASSERT_EQ(ended.cells.size(), plain.cells.size());
   ASSERT_EQ(ended.probes.size(), plain.probes.size());
   for (const FieldCell& cell : ended.cells) EXPECT_EQ(cell.children, FieldCell().children);
+  for (std::size_t i = 0; i < plain.probes.size(); ++i) EXPECT_EQ(ended.probes[i].sh, plain.probes[i].sh);
+}
+
+// Before that, what is not measured has the light of the nearest probe that is: a few rays for all.
+TEST(Probes, TheGridEndsWhereTimeIsOver) {
+  const FieldBox box{Vec3(0), {8, 3, 2}};
+  std::atomic<int> shaded{0};
+  const auto counted = [&](const Vec3& p) { return ++shaded, left_is_bright(p); };
+  const auto plain = field_of(two_rooms(0.2f), box, {.samples = 256, .levels = 0}, counted, 1);
+  const int of_grid = shaded.exchange(0);
+  const auto ended = field_of(two_rooms(0.2f), box, {.samples = 256, .left = [] { return 0.0; }}, counted, 1);
+  EXPECT_LT(shaded, of_grid / 4);
+  ASSERT_EQ(ended.probes.size(), plain.probes.size());
+  EXPECT_EQ(ended.cells.size(), plain.cells.size());
+  std::set<std::vector<float>> lights;
+  for (const LightProbe& probe : ended.probes) {
+    EXPECT_EQ(probe.sh.size(), plain.probes[0].sh.size());
+    EXPECT_EQ(probe.depth.size(), plain.probes[0].depth.size());
+    lights.insert(probe.sh);
+  }
+  EXPECT_EQ(lights.size(), 1u) << "of the one that was measured";
 }
 
 }  // namespace

@@ -74,6 +74,18 @@ TEST(Transfer, ConvexObjectsHaveExactlyTheUnshadowedTransfer) {
   }
 }
 
+TEST(Transfer, WhereTimeIsOverWhatHidesIsLeftOutWithAWord) {
+  const Scene scene = under_sphere({0, 0, 2}, 1);
+  Context context;
+  std::vector<Warning> warnings;
+  const WarningLog log(context, warnings);
+  const auto late = bake_transfer(*Accel::build(scene), {.samples = 4096, .enough = [] { return true; }}, context);
+  ASSERT_TRUE(late);
+  EXPECT_NEAR(in_even_light(*late, 0), 1, 1e-4);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].code, WarningCode("time-over"));
+}
+
 // The part of an inward sphere below a height: every point of it sees the rest by its share of the whole area.
 Scene bowl(const Vec3& albedo, float height) {
   SceneParts parts;

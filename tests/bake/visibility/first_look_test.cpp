@@ -48,6 +48,19 @@ void expect_clear(const Scene& scene, const Camera& camera) {
   }
 }
 
+TEST(FirstLook, LooksFromOnePlaceWhereTimeIsOver) {
+  const Scene scene = long_room().finish();
+  const Accel accel = *Accel::build(scene);
+  Context context;
+  const auto region = find_eye_region(accel, {}, context);
+  std::atomic<int> looks{0};
+  const SurfaceLight counted = [&](const Hit&, const Vec3&) { return ++looks, Vec3(100); };
+  const auto first = find_first_look(accel, region->grids, counted, context, [] { return true; });
+  ASSERT_TRUE(first);
+  EXPECT_TRUE(first->inside);
+  EXPECT_LT(looks, 5000) << "of 200 000";
+}
+
 TEST(FirstLook, StandsInsideAtEyeHeightAndFacesTheLongestSight) {
   const Scene scene = long_room().finish();
   const FirstLook first = first_look(scene);
