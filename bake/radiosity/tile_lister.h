@@ -124,12 +124,14 @@ class TileLister {
     return off - std::asin(reach / distance) > double{light.outer_cone_rad};
   }
 
-  bool is_covered(const UVec2& lower, std::uint32_t side) const {
+  // How many of the square's texels are the chart's.
+  std::uint32_t covered(const UVec2& lower, std::uint32_t side) const {
+    std::uint32_t count = 0;
     const std::uint32_t width = scene_.map[chart_.page].width, height = scene_.map[chart_.page].height;
     for (std::uint32_t y = lower.y; y < std::min(lower.y + side, height); ++y)
       for (std::uint32_t x = lower.x; x < std::min(lower.x + side, width); ++x)
-        if (chart_at_[std::size_t{y} * width + x] == chart_number_) return true;
-    return false;
+        count += chart_at_[std::size_t{y} * width + x] == chart_number_;
+    return count;
   }
 
   // Settles what it can in a square of whole texels and goes on in its quarters.
@@ -137,7 +139,9 @@ class TileLister {
             TileRecords& records) {
     const auto side = static_cast<std::uint32_t>(square.side);
     const UVec2 lower(square.lower);
-    if (!is_covered(lower, side)) return;
+    const std::uint32_t texels = covered(lower, side);
+    if (texels == 0) return;
+    whole_ = side == 1 || texels == side * side;
     if (side == 1) {
       SharpRecord record;
       for (const int splits : {kMostSharpSplits, kFilterSplits, 2, 1, 0}) {
@@ -215,6 +219,8 @@ class TileLister {
       edges_of_filters = edges_of_filters || (near && casters_.is_filter(t));
     }
     if (!edges) {
+      // Rays from beyond the chart's end tell nothing of it: they may start in a wall that meets it there.
+      if (!whole_) return {Light::kOpen, {}, std::move(shine.casters)};
       const Rays few = rays_to(square, lamp.lamp, kFewRays);
       if (few.even) return arrived(lamp.lamp, few.mean);
       edges = edges_of_filters = true;
@@ -376,6 +382,7 @@ class TileLister {
   const std::vector<std::uint32_t>& chart_at_;  // of the page, by texel
   double level_;
   int most_splits_ = kMostSharpSplits;
+  bool whole_ = true;  // the square that is looked at is all the chart's
   std::uint64_t rays_ = 0;
 };
 

@@ -120,6 +120,16 @@ TEST(SharpLight, OfAPointIsWhatRaysFindToTheEdge) {
   EXPECT_EQ(found.wrong, 0) << "of " << found.points;
 }
 
+// Walls of a closed body meet the next one without an edge of a shadow, and end a fifth into a tile of texels.
+TEST(SharpLight, ReachesTheEndsOfTheWallsOfAClosedRoom) {
+  SceneParts parts;
+  parts.box("room", parts.diffuse(Vec3(0.5f)), {-2, 0, -3}, {2, 2.5f, 3}, true);
+  parts.scene().lights = {point_at({-1.8f, 2.3f, -2.7f})};
+  const LookedAt found = look_at(test::bake(parts.finish(), 0.2f, sharp_options()), 1, 0.01);
+  EXPECT_GT(found.points, 500);
+  EXPECT_EQ(found.wrong, 0) << "of " << found.points;
+}
+
 TEST(SharpLight, OfASpotAndALowSunToo) {
   Light spot = point_at({-2, 2.6f, 2});
   spot.type = LightType::kSpot;
