@@ -15,12 +15,11 @@ namespace {
 constexpr float kLift = 0.02f;       // over the surface: carpets and thresholds are no walls
 constexpr float kLeastWall = 0.5f;   // its length; legs of furniture are no walls
 constexpr float kNarrow = 0.15f;     // strips beside a line, at least; between probes along a wall
-constexpr float kSameWall = 0.05f;   // between the lines of a wall's two faces; a piece of a wall's foot, at least
-constexpr float kStraight = 0.003f;  // off a line
+constexpr float kSameWall = 0.05f;   // between the lines of a wall's two faces
+constexpr float kStraight = 0.003f;  // off a line; a piece of a wall's foot, at least: shorter ones tell no direction
 constexpr std::array kReach{0.1f, 0.2f, 0.4f};  // from a wall's face to open surface on either side
 
-constexpr std::uint32_t kBlock = 64;     // triangles that share their bounds
-constexpr std::size_t kMostLines = 256;  // of a flat surface
+constexpr std::uint32_t kBlock = 64;  // triangles that share their bounds
 
 // A part of a surface in one plane.
 struct FlatPart {
@@ -56,6 +55,42 @@ struct WallLine {
     return std::abs(glm::dot(left_of(along), other.along)) < kStraight / kLeastWall &&
            std::abs(off(middle)) < distance && place(middle) + beside > first && place(middle) - beside < last;
   }
+};
+
+// Lines by their angle and by how far they pass from the middle of what they lie in.
+class LineIndex {
+ public:
+  static constexpr float kTurned = kStraight / kLeastWall;  // radians between what runs along one line
+
+  // reach: how far from the middle anything is, metres.
+  LineIndex(const Vec2& middle, float reach, float scale)
+      : middle_(middle), off_step_(kTurned * reach + kStraight * scale) {}
+  void add(const WallLine& line, std::uint32_t index) { lines_[place(line, 0, 0)].push_back(index); }
+  // The first one that is accepted, of those that nearly run along the line.
+  template <class Accepts>
+  std::optional<std::uint32_t> find(const WallLine& line, const Accepts& accepts) const {
+    std::optional<std::uint32_t> first;
+    for (const long turn : {-1, 0, 1})
+      for (const long shift : {-1, 0, 1})
+        if (const auto at = lines_.find(place(line, turn, shift)); at != lines_.end())
+          for (const std::uint32_t i : at->second)
+            if ((!first || i < *first) && accepts(i)) first = i;
+    return first;
+  }
+
+ private:
+  // A line has no sense: half a turn further it is the same one, which passes on the other side.
+  std::pair<long, long> place(const WallLine& line, long turn, long shift) const {
+    constexpr long kHalfTurn = static_cast<long>(kPi / kTurned);
+    const long angle = std::lround(std::atan2(line.along.y, line.along.x) / kPi * kHalfTurn) + turn;
+    const long within = (angle + 2 * kHalfTurn) % kHalfTurn;
+    const float off = (angle - within) / kHalfTurn % 2 == 0 ? line.off(middle_) : -line.off(middle_);
+    return {within, std::lround(off / off_step_) + shift};
+  }
+
+  Vec2 middle_;
+  float off_step_;
+  std::map<std::pair<long, long>, std::vector<std::uint32_t>> lines_;
 };
 
 class WallFinder {
@@ -160,7 +195,7 @@ class WallFinder {
       if ((height[k] > 0) == (height[next] > 0)) continue;
       if (ends < 2) foot[ends++] = part.flat(glm::mix(c[k], c[next], height[k] / (height[k] - height[next])));
     }
-    if (ends < 2 || glm::distance(foot[0], foot[1]) < kSameWall * scale_) return;
+    if (ends < 2 || glm::distance(foot[0], foot[1]) < kStraight * scale_) return;
     const Vec2 lower = glm::min(foot[0], foot[1]), upper = glm::max(foot[0], foot[1]);
     if (glm::any(glm::lessThan(upper, part.lower)) || glm::any(glm::greaterThan(lower, part.upper))) return;
     found.push_back(foot);
@@ -169,24 +204,35 @@ class WallFinder {
   // Feet in one line without an opening as wide as the shortest wall: those of a wall or more.
   std::vector<WallLine> lines(const FlatPart& part) const {
     std::vector<WallLine> found;
+    const Vec2 middle = 0.5f * (part.lower + part.upper);
+    LineIndex known(middle, glm::distance(middle, part.upper), scale_);
     for (const auto& [a, b] : feet(part)) {
-      const Vec2 along = glm::normalize(b - a);
-      const auto on = std::ranges::find_if(found, [&](const WallLine& line) {
-        return std::abs(glm::dot(left_of(line.along), along)) < kStraight / kLeastWall &&
+      if (context_.stopped()) return {};
+      WallLine own{a, glm::normalize(b - a), 0, 0, 0, {}};
+      const auto on = known.find(own, [&](std::uint32_t i) {
+        const WallLine& line = found[i];
+        return std::abs(glm::dot(left_of(line.along), own.along)) < LineIndex::kTurned &&
                std::max(std::abs(line.off(a)), std::abs(line.off(b))) < kStraight * scale_;
       });
-      if (on != found.end()) {
-        on->add(on->place(a), on->place(b));
-      } else if (found.size() < kMostLines) {
-        found.push_back({a, along, 0, 0, 0, {}});
-        found.back().add(0, glm::distance(a, b));
+      if (on) {
+        found[*on].add(found[*on].place(a), found[*on].place(b));
+      } else {
+        own.add(0, glm::distance(a, b));
+        known.add(own, static_cast<std::uint32_t>(found.size()));
+        found.push_back(std::move(own));
       }
     }
     std::vector<WallLine> walls;
     for (WallLine& line : found) {
       std::ranges::sort(line.pieces, {}, [](const Vec2& piece) { return std::pair(piece.x, piece.y); });
+      std::vector<Vec2> joined;
+      for (const Vec2& piece : line.pieces)
+        if (!joined.empty() && piece.x <= joined.back().y + kStraight * scale_)
+          joined.back().y = std::max(joined.back().y, piece.y);
+        else
+          joined.push_back(piece);
       const std::size_t before = walls.size();
-      for (const Vec2& piece : line.pieces) {
+      for (const Vec2& piece : joined) {
         if (walls.size() == before || piece.x > walls.back().last + kLeastWall * scale_)
           walls.push_back({line.on, line.along, piece.x, piece.x, 0, {}});
         walls.back().add(piece.x, piece.y);
@@ -232,7 +278,7 @@ class WallFinder {
     };
     std::vector<WallProbe> probes;
     for (const Vec2& piece : line.pieces) {
-      const int count = static_cast<int>(std::min(64.0f, std::ceil((piece.y - piece.x) / (kNarrow * scale_))));
+      const int count = static_cast<int>(std::min(1024.0f, std::ceil((piece.y - piece.x) / (kNarrow * scale_))));
       const float step = (piece.y - piece.x) / static_cast<float>(count);
       for (int k = 0; k < count; ++k) {
         const float from = piece.x + static_cast<float>(k) * step;

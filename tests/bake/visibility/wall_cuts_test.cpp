@@ -99,6 +99,23 @@ TEST(WallCuts, ARoomFarFromZeroIsCut) {
   }
 }
 
+// Meshed in strips of 2 cm, among the feet of 200 tables, each longer than a strip.
+TEST(WallCuts, AFinelyMeshedSheetPartsTheFloorOfACrowdedHall) {
+  SceneParts parts = floor_of(20);
+  SceneMaterial sheet;
+  sheet.double_sided = true;
+  const std::uint32_t m = parts.add(sheet), wood = parts.diffuse(Vec3(0.5f));
+  for (int strip = 0; strip < 200; ++strip)
+    parts.quad("sheet", m, {1.3f, 0, 2 - 0.02f * static_cast<float>(strip)}, {0, 0, -0.02f}, {0, 2.5f, 0});
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 at(3.01f + 0.8f * static_cast<float>(i % 20), 0, -8 + 0.037f * static_cast<float>(43 * i % 400));
+    parts.box("table", wood, at, at + Vec3(0.11f + 0.003f * static_cast<float>(i / 20), 0.7f, 0.1f));
+  }
+  const auto cuts = cuts_of(parts.finish());
+  ASSERT_EQ(cuts.size(), 1u);
+  EXPECT_NEAR(x_of(cuts[0]), 1.3f, 1e-4);
+}
+
 // Of a stage that ends early what is there is kept, and a word says so.
 TEST(WallCuts, EndEarlyWithAWordAndStop) {
   SceneParts parts = floor_of();
