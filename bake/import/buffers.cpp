@@ -50,16 +50,16 @@ Result<Bytes> decode_meshopt(const MeshoptDesc& desc, std::span<const std::byte>
   return out;
 }
 
-// The file of a name, as written or else as Windows finds it: \ parts folders, and cases are alike. The name as written
-// where no file has it, or two differ by their case alone.
+// The file of a name, as written or else as Windows and the web find it: \ parts folders, cases are alike, a?b is a,
+// and a/../b is b without an a. The name as written where no file has it, or two differ by their case alone.
 std::filesystem::path find_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
   std::error_code ec;
   const std::filesystem::path written = folder / name;
   if (std::filesystem::exists(written, ec)) return written;
-  std::string slashed = name.string();
+  std::string slashed = name.string().substr(0, name.string().find('?'));
   std::ranges::replace(slashed, '\\', '/');
   std::filesystem::path at = folder.empty() ? "." : folder;
-  for (const std::filesystem::path& part : std::filesystem::path(slashed)) {
+  for (const std::filesystem::path& part : std::filesystem::path(slashed).lexically_normal()) {
     if (std::filesystem::exists(at / part, ec)) {
       at /= part;
       continue;

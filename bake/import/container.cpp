@@ -114,7 +114,7 @@ Result<Container> split_container(std::span<const std::byte> bytes, const std::s
   // A byte order mark goes on to the JSON reader, which names it.
   if (first != bytes.end() && *first != std::byte{'{'} && *first != std::byte{0xEF})
     return invalid(file,
-                   "is no scene of a known format, expected .glb or .gltf (or .fbx, .dae, .ifc, .obj, .3ds, .ply, "
+                   "found no scene of a known format, expected .glb or .gltf (or .fbx, .dae, .ifc, .obj, .3ds, .ply, "
                    ".stl): export glTF from the program that made it");
   return Container{.json = bytes, .binary = std::nullopt};
 }

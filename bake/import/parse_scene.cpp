@@ -99,7 +99,8 @@ void parse_transform(const JsonAt& value, NodeDesc& node) {
   node.matrix = matrix_from_trs(node.translation, node.rotation, node.scale);
   if (!matrix.present()) return;
   if (value["translation"].present() || value["rotation"].present() || value["scale"].present())
-    return value.error("found both a matrix and translation, rotation or scale, expected one of them");
+    matrix.repaired(
+        "the matrix is taken; the node has a translation, rotation or scale, too, which glTF does not allow");
   node.has_matrix = true;
   std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   matrix.numbers(m);

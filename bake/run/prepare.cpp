@@ -13,6 +13,7 @@
 #include "bake/visibility/scene_unit.h"
 #include "bake/visibility/wall_cuts.h"
 #include "formats/core/color.h"
+#include "formats/core/text.h"
 
 namespace oriel {
 namespace {
@@ -52,7 +53,15 @@ Status import_scene(const BakeOptions& options, double unit_m, Stopwatch& timed,
 // What people are, see and walk is in metres.
 Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
   const auto unit_m = guessed_unit(*prepared.accel, options.import.unit_m, context);
-  if (!unit_m) return {};
+  if (!unit_m) {
+    const std::string ending = lower_case(options.scene.extension().string());
+    const Vec3 m = prepared.scene().upper - prepared.scene().lower;
+    if (ending == ".obj" || ending == ".3ds" || ending == ".ply" || ending == ".stl")
+      context.warning("unit-guessed", fmt::format("the file tells no unit: it is taken to be {:.3g} x {:.3g} x {:.3g} "
+                                                  "m large; --unit cm (mm, in, ft, m) tells it",
+                                                  m.x, m.y, m.z));
+    return {};
+  }
   prepared.unit_guessed = true;
   auto warn = std::exchange(context.warn, nullptr);  // all was said before
   const Status again = import_scene(options, *unit_m, timed, context, prepared);

@@ -79,6 +79,7 @@ TEST(Image, FilesAreFoundAsWindowsFindsThem) {
   EXPECT_TRUE(found("Textures/Wood.webp"));
   EXPECT_TRUE(found("textures\\WOOD.webp"));
   EXPECT_FALSE(found("textures/woods.webp"));
+  EXPECT_TRUE(found("./no/such/../../Textures/Wood.webp?v=3"));
   write("Textures/wood.WEBP");
   EXPECT_FALSE(found("textures/wood.webp")) << "two files it could be";
   EXPECT_TRUE(found("Textures/Wood.webp"));

@@ -234,6 +234,18 @@ TEST(Nodes, MatricesThatShearStandAsTheyAre) {
   EXPECT_NEAR(farthest, 2, 1e-6);
 }
 
+// glTF forbids both; three.js and Blender take the matrix.
+TEST(Nodes, AMatrixStandsBesideATranslation) {
+  Gltf g = triangle();
+  g.doc["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 0, 0, 1};
+  g.doc["nodes"][0]["translation"] = {0, 3, 0};
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_EQ(r.scene().origin.x + double{r.scene().lower.x}, 7);
+  EXPECT_EQ(r.scene().origin.y + double{r.scene().lower.y}, 0);
+  EXPECT_TRUE(r.warned("nodes[0].matrix: the matrix is taken"));
+}
+
 TEST(Nodes, ScenesAreChosen) {
   Gltf g = triangle();
   g.add_triangle()["name"] = "second";

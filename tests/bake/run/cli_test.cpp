@@ -9,6 +9,7 @@
 
 #include "bake/run/measure.h"
 #include "bake/run/options.h"
+#include "bake/run/prepare.h"
 #include "formats/core/file.h"
 #include "formats/core/json.h"
 #include "formats/core/text.h"
@@ -240,6 +241,26 @@ TEST_F(BakeCli, LuxPrintsATable) {
   ASSERT_EQ(run("oriel-bake lux cornell.glb --points points.csv --error 5% --threads 1 --quiet"), 0);
   EXPECT_EQ(lines("log"), lines("a.csv")) << "stdout holds the table and nothing else";
   ASSERT_EQ(run("oriel-bake lux cornell.glb --points points.csv --samples 1000 --quiet"), 0) << log();
+}
+
+// A lounger in centimetres of a format that knows no unit.
+TEST_F(BakeCli, TheSizeOfAThingWithoutAUnitIsTold) {
+  std::string text;
+  for (int k = 0; k < 8; ++k) text += fmt::format("v {} {} {}\n", k & 1 ? 95 : 0, k & 2 ? 78 : 0, k & 4 ? 83 : 0);
+  text += "f 1 2 6 5\nf 1 2 8 7\n";
+  for (const bool named : {false, true}) {
+    BakeOptions options;
+    options.scene = folder_ / "lounger.obj";
+    options.guess_unit = !named;
+    ASSERT_TRUE(write_text_atomically(options.scene, text));
+    Context context;
+    std::string said;
+    context.warn = [&](const Warning& warning) { said += warning.text; };
+    std::vector<StageTime> times;
+    Stopwatch timed(times);
+    ASSERT_TRUE(prepare_scene(options, timed, context));
+    EXPECT_EQ(said.find("95 x 78 x 83 m large; --unit cm") != std::string::npos, !named) << said;
+  }
 }
 
 TEST_F(BakeCli, LuxExitCodesAndMessages) {
