@@ -9,6 +9,7 @@
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/estimators/cached.h"
 #include "bake/radiosity/estimators/detail.h"
+#include "bake/radiosity/estimators/first_direct.h"
 #include "bake/radiosity/estimators/path_estimator.h"
 #include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/held_out_error.h"
@@ -142,7 +143,7 @@ class DarkEstimator : public LightEstimator {
 
 Result<std::unique_ptr<LightEstimator>> make_estimator(const RadiosityTask& task) {
   if (is_dark(task.transport)) {
-    ORIEL_TRY(Texels texels, list_texels(task, task.quick));
+    ORIEL_TRY(Texels texels, list_texels(task, task.quick, {.seconds = points_seconds(task)}));
     return std::make_unique<DarkEstimator>(std::move(texels));
   }
   if (task.options.estimator == Estimator::kCached) return make_cached_estimator(task);
