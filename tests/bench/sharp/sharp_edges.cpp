@@ -1,0 +1,351 @@
+// Where the edges of shadows are in frames of a pack's sharp light, beside rays from the same pixels. Usage:
+// sharp_edges SCENE PACK.oriel [--eyes N] [--size W,H]. Eyes are the pack's cameras, up to a third of them,
+// and others from 0.3 to 5 m that look at places by which a shadow ends. Each sees one lamp alone. A row of a table by
+// lamp.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "bake/import/import.h"
+#include "bake/jobs/parallel.h"
+#include "bake/trace/punctual.h"
+#include "bake/trace/sampler.h"
+#include "formats/cli/command.h"
+#include "formats/core/color.h"
+#include "formats/pack/reader.h"
+#include "formats/query/camera.h"
+#include "formats/query/sharp_light.h"
+#include "player/gpu/headless.h"
+#include "player/passes/frame.h"
+#include "tests/bench/sharp/bare_pack.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kRaysOfPixel = 64;
+constexpr float kLit = 0.5f, kSharp = 0.25f;  // of the light; from a pixel to the next: such edges are asked for places
+constexpr int kFar = 6;                       // pixels: further away no edge is sought
+constexpr float kOff = 1.5f;                  // pixels
+
+struct Settings {
+  std::string scene, pack;
+  std::vector<double> size = {1280, 720};
+  std::uint32_t eyes = 30;
+  std::string picture;
+};
+
+struct Eye {
+  Camera camera;
+  std::uint32_t lamp = 0;
+};
+
+struct LampSum {
+  std::size_t eyes = 0, lit_by_pixel = 0, lit_in_texels = 0, soft = 0, lit_in_shadow = 0, dark_in_light = 0;
+  std::vector<float> off;  // by edge, pixels
+  double squares = 0;      // of soft pixels
+  std::string worst;
+  std::size_t worst_count = 0;
+};
+
+class EdgeBench {
+ public:
+  EdgeBench(const Settings& settings, const BarePack& bare, const Accel& shown, const Accel& casters,
+            const gpu::Device& device, Renderer& renderer)
+      : settings_(settings), bare_(bare), shown_(shown), casters_(casters), device_(device), renderer_(renderer),
+        width_(static_cast<int>(settings.size[0])), height_(static_cast<int>(settings.size[1])) {
+    for (std::uint32_t k = 0; k < bare.pack.sharp_light.lamps.size(); ++k) planes_.push_back(bare.planes_of(k));
+  }
+
+  std::vector<Eye> eyes(std::span<const Camera> cameras) const {
+    std::vector<Eye> out;
+    const auto lamps = static_cast<std::uint32_t>(planes_.size());
+    for (std::uint32_t k = 0; k < std::min<std::size_t>(cameras.size(), settings_.eyes / 3); ++k)
+      out.push_back({cameras[k], k % lamps});
+    std::vector<double> area{0};
+    for (std::uint32_t t = 0; t < bare_.page.size(); ++t) area.push_back(area.back() + triangle_area(bare_.scene, t));
+    for (std::uint32_t k = 0; out.size() < settings_.eyes && k < 4000000; ++k) {
+      Sampler random(1, 0, k);
+      const double at = double{random.next1()} * area.back();
+      const auto t = static_cast<std::uint32_t>(std::ranges::upper_bound(area, at) - area.begin() - 1);
+      const std::uint32_t lamp = k % lamps;
+      if (!planes_[lamp].contains(bare_.plane[t])) continue;
+      Vec2 in = random.next2();
+      if (in.x + in.y > 1) in = 1.0f - in;
+      const Vec3 p = point_on(bare_.scene, t, in), n = geometric_normal(bare_.scene, t);
+      const Vec2 turn = random.next2();
+      const Vec3 beside = p + 0.03f * glm::normalize(glm::cross(n, Vec3(turn.x, 1 - turn.x, turn.y)));
+      if ((visible(p, n, lamp, Vec2(0.5f)) > kLit) == (visible(beside, n, lamp, Vec2(0.5f)) > kLit)) continue;
+      const float distance = 0.3f * std::pow(5 / 0.3f, random.next1()) * 0.999f;
+      const Vec3 way = sample_cone(n, 1.3f, random.next2());
+      const Vec3 from = offset_origin(p, n, max_component(glm::abs(p)));
+      if (casters_.intersect({from, way, distance + 0.1f})) continue;
+      Camera camera = look_at(p + distance * way, p, 1.0f);
+      camera.name = fmt::format("{:.2f} m", distance);
+      out.push_back({camera, lamp});
+    }
+    return out;
+  }
+
+  Status look(const Eye& eye, LampSum& sum);
+
+ private:
+  struct Pixel {
+    std::uint32_t triangle = ~0u;
+    Vec3 position{0}, normal{0};
+    float shown = 0, right = 0;
+    bool asked = false;  // right is that of many rays
+  };
+
+  float visible(const Vec3& p, const Vec3& n, std::uint32_t number, const Vec2& disk) const {
+    const SharpLamp& lamp = bare_.pack.sharp_light.lamps[number];
+    Ray ray;
+    ray.origin = offset_origin(p, n, max_component(glm::abs(bare_.scene.upper - bare_.scene.lower)));
+    ray.past_frosted = false;
+    if (lamp.sun) {
+      ray.direction = lamp.angular_radius_rad > 0 ? sample_cone(-lamp.direction, lamp.angular_radius_rad, disk)
+                                                  : -lamp.direction;
+    } else {
+      const Vec3 to = lamp.position - ray.origin;
+      ray.max_distance = glm::length(to), ray.direction = to / ray.max_distance;
+    }
+    if (glm::dot(ray.direction, n) <= 0) return 0;
+    return luminance(casters_.transmittance(ray));
+  }
+
+  Pixel& at(int x, int y) { return pixels_[static_cast<std::size_t>(y * width_ + x)]; }
+  bool same(const Pixel& a, const Pixel& b) const {
+    return a.triangle != ~0u && b.triangle != ~0u && bare_.plane[a.triangle] == bare_.plane[b.triangle];
+  }
+  void ask_many(const Eye& eye, int x, int y);
+  // Where between that pixel and the next light passes kLit; none: it does not.
+  std::optional<Vec2> crossing(int x, int y, bool down, float Pixel::*value, float least, bool& rises);
+
+  const Settings& settings_;
+  const BarePack& bare_;
+  const Accel &shown_, &casters_;
+  const gpu::Device& device_;
+  Renderer& renderer_;
+  int width_, height_;
+  std::vector<std::set<std::uint32_t>> planes_;  // by lamp
+  std::vector<Pixel> pixels_;
+  std::size_t number_ = 0;  // of the next picture
+  std::map<std::uint32_t, std::unique_ptr<GpuScene>> scenes_;  // by lamp
+};
+
+void EdgeBench::ask_many(const Eye& eye, int x, int y) {
+  Pixel& pixel = at(x, y);
+  pixel.right = 0, pixel.asked = true;
+  for (std::uint32_t k = 0; k < kRaysOfPixel; ++k) {
+    Sampler random(2, static_cast<std::uint64_t>(y * width_ + x), k);
+    const Vec2 within = Vec2(x, y) + random.next2();
+    const PixelRay ray = pixel_ray(eye.camera, within.x, within.y, static_cast<float>(width_), static_cast<float>(height_));
+    const float along = glm::dot(pixel.normal, pixel.position - ray.origin) / glm::dot(pixel.normal, ray.direction);
+    pixel.right += visible(ray.origin + along * ray.direction, pixel.normal, eye.lamp, random.next2()) / kRaysOfPixel;
+  }
+}
+
+std::optional<Vec2> EdgeBench::crossing(int x, int y, bool down, float Pixel::*value, float least, bool& rises) {
+  const Pixel &a = at(x, y), &b = at(x + !down, y + down);
+  if (!same(a, b) || (a.*value < kLit) == (b.*value < kLit) || std::abs(a.*value - b.*value) < least) return std::nullopt;
+  rises = b.*value > a.*value;
+  const float share = (kLit - a.*value) / (b.*value - a.*value);
+  return Vec2(x, y) + (down ? Vec2(0, share) : Vec2(share, 0));
+}
+
+Status EdgeBench::look(const Eye& eye, LampSum& sum) {
+  std::unique_ptr<GpuScene>& scene = scenes_[eye.lamp];
+  const float kPower = 1000;
+  Pack alone;
+  if (!scene) {
+    alone = bare_.pack;
+    for (std::uint32_t k = 0; k < alone.sharp_light.lamps.size(); ++k)
+      alone.sharp_light.lamps[k].intensity = Vec3(k == eye.lamp ? kPower : 0), alone.sharp_light.lamps[k].light_group = ~0u;
+    ORIEL_TRY(scene, GpuScene::create(alone, device_));
+  }
+  ORIEL_TRY_VOID(renderer_.render(*scene, make_view(eye.camera, width_, height_, scene->bounds()), {}));
+  const std::vector<float> frame = renderer_.read_light();
+  // Its light without shadows: a record of no triangle for all.
+  LightmapPage open_page;
+  open_page.width = open_page.height = 1, open_page.sharp_at = {1};
+  SharpLight open;
+  open.lamps = {bare_.pack.sharp_light.lamps[eye.lamp]}, open.lamps[0].intensity = Vec3(kPower);
+  open.lamps[0].light_group = ~0u, open.words = {0, 1, SharpShine{0, false, 0}.code()};
+  pixels_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), {});
+  std::vector<std::size_t> texels(static_cast<std::size_t>(height_)), by_pixel(texels.size());
+  Context context;
+  const Stage stage{context};
+  ORIEL_TRY_VOID(parallel_for(stage, "", static_cast<std::size_t>(height_), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < width_; ++x) {
+      const PixelRay ray = pixel_ray(eye.camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
+                                     static_cast<float>(width_), static_cast<float>(height_));
+      const Hit hit = shown_.intersect({ray.origin, ray.direction});
+      if (!hit || !hit.front) continue;
+      Pixel pixel{hit.triangle, point_on(bare_.scene, hit.triangle, hit.barycentric),
+                  geometric_normal(bare_.scene, hit.triangle)};
+      const float lux = sharp_irradiance(open, open_page, {Vec2(0.5f), pixel.position, pixel.normal}).r;
+      if (!(lux > 1e-3f * kPower) && !(open.lamps[0].sun && lux > 0.02f * kPower) && !(lux > 1)) continue;
+      pixel.right = visible(pixel.position, pixel.normal, eye.lamp,
+                            Sampler(3, row, static_cast<std::uint32_t>(x)).next2());
+      if (!planes_[eye.lamp].contains(bare_.plane[hit.triangle])) {
+        texels[row] += pixel.right > kLit;
+        continue;
+      }
+      by_pixel[row] += pixel.right > kLit;
+      pixel.shown = frame[3 * static_cast<std::size_t>(y * width_ + x)] * kPi / lux;
+      at(x, y) = pixel;
+    }
+  }));
+  for (const std::size_t n : texels) sum.lit_in_texels += n;
+  for (const std::size_t n : by_pixel) sum.lit_by_pixel += n;
+  // Many rays where one, or the frame, finds an edge, and from there on to where all is lit or dark.
+  for (bool first = true, more = true; more; first = false) {
+    std::vector<std::vector<int>> asked(static_cast<std::size_t>(height_));
+    for (int y = 1; y + 1 < height_; ++y)
+      for (int x = 1; x + 1 < width_; ++x) {
+        const Pixel& p = at(x, y);
+        if (p.triangle == ~0u || p.asked) continue;
+        bool ask = first && ((p.shown > 0.02f && p.shown < 0.98f) || (p.shown > kLit) != (p.right > kLit));
+        for (int k = 0; k < 9 && !ask; ++k) {
+          const Pixel& q = at(x + k % 3 - 1, y + k / 3 - 1);
+          ask = same(p, q) && (first ? (q.right > kLit) != (p.right > kLit) : q.asked && q.right > 0 && q.right < 1);
+        }
+        if (ask) asked[static_cast<std::size_t>(y)].push_back(x);
+      }
+    more = std::ranges::any_of(asked, [](const std::vector<int>& row) { return !row.empty(); });
+    ORIEL_TRY_VOID(parallel_for(stage, "", asked.size(), [&](std::size_t row) {
+      for (const int x : asked[row]) ask_many(eye, x, static_cast<int>(row));
+    }));
+  }
+  // Edges of both, by pixel and way.
+  struct Edge {
+    Vec2 at;
+    bool rises;
+  };
+  const auto edges_of = [&](float Pixel::*value, float least) {
+    std::map<std::array<int, 3>, Edge> out;
+    for (int y = 0; y + 1 < height_; ++y)
+      for (int x = 0; x + 1 < width_; ++x)
+        for (const bool down : {false, true}) {
+          bool rises = false;
+          if (const auto place = crossing(x, y, down, value, least, rises)) out.insert({{x, y, down}, {*place, rises}});
+        }
+    return out;
+  };
+  const auto nearest = [&](const std::map<std::array<int, 3>, Edge>& edges, const Vec2& from, int x, int y,
+                           std::optional<std::array<bool, 2>> like) {
+    float best = kFar;
+    for (int j = -kFar; j <= kFar; ++j)
+      for (int i = -kFar; i <= kFar; ++i)
+        for (const int down : {0, 1}) {
+          const auto found = edges.find({x + i, y + j, down});
+          if (found == edges.end() || (like && ((*like)[0] == static_cast<bool>(down)) && found->second.rises != (*like)[1])) continue;
+          best = std::min(best, glm::distance(from, found->second.at));
+        }
+    return best;
+  };
+  const auto right = edges_of(&Pixel::right, 0), shown = edges_of(&Pixel::shown, 0);
+  for (const auto& [key, edge] : right) {
+    const Pixel &a = at(key[0], key[1]), &b = at(key[0] + !key[2], key[1] + key[2]);
+    if (std::abs(a.right - b.right) >= kSharp)
+      sum.off.push_back(nearest(shown, edge.at, key[0], key[1], std::array{key[2] != 0, edge.rises}));
+  }
+  std::size_t wrong = 0;
+  Vec2 where(0);
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const Pixel& p = at(x, y);
+      if (!p.asked) continue;
+      if (p.right > 0.02f && p.right < 0.98f) ++sum.soft, sum.squares += (p.shown - p.right) * (p.shown - p.right);
+      if ((p.shown > kLit) == (p.right > kLit) || std::abs(p.shown - p.right) < kSharp) continue;
+      bool whole = true;  // at outlines the frame's pixels show more than one surface
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) whole = whole && x > 0 && y > 0 && x + 1 < width_ && y + 1 < height_ && same(p, at(x + i, y + j));
+      if (!whole || nearest(right, Vec2(x, y), x, y, std::nullopt) <= kOff) continue;
+      ++(p.shown > kLit ? sum.lit_in_shadow : sum.dark_in_light), ++wrong, where = Vec2(x, y);
+    }
+  if (wrong > sum.worst_count) {
+    sum.worst_count = wrong;
+    sum.worst = fmt::format("{} from ({:.3f} {:.3f} {:.3f}) along ({:.3f} {:.3f} {:.3f}): {}, the last at {} {}", eye.camera.name,
+                            eye.camera.eye.x, eye.camera.eye.y, eye.camera.eye.z, eye.camera.forward.x,
+                            eye.camera.forward.y, eye.camera.forward.z, wrong, where.x, where.y);
+  }
+  if (!settings_.picture.empty()) {
+    // Shown, right and their difference, one above the other.
+    std::FILE* file = std::fopen(fmt::format("{}{}.ppm", settings_.picture, number_++).c_str(), "wb");
+    std::fprintf(file, "P6\n%d %d\n255\n", width_, 3 * height_);
+    for (int part = 0; part < 3; ++part)
+      for (const Pixel& p : pixels_) {
+        const float v = part == 0 ? p.shown : part == 1 ? p.right : std::abs(p.shown - p.right);
+        const auto byte = p.triangle == ~0u ? 60 : static_cast<int>(255 * std::clamp(v, 0.0f, 1.0f));
+        std::fputc(byte, file), std::fputc(byte, file), std::fputc(p.triangle == ~0u ? 120 : byte, file);
+      }
+    std::fclose(file);
+  }
+  ++sum.eyes;
+  return {};
+}
+
+Status run(const Settings& settings) {
+  Context context;
+  ORIEL_TRY(const Pack full, read_pack(settings.pack));
+  if (full.sharp_light.empty()) return fail(ErrorCode::kInvalid, settings.pack, "found no light by pixel");
+  ImportOptions options;
+  ORIEL_TRY(ImportedScene imported, import_gltf(settings.scene, options, context));
+  // A bake may take the file's unit for another.
+  const auto size_of = [](const std::vector<Vec3>& positions) {
+    Vec3 lower = positions.at(0), upper = lower;
+    for (const Vec3& p : positions) lower = glm::min(lower, p), upper = glm::max(upper, p);
+    return double{glm::distance(lower, upper)};
+  };
+  options.unit_m = size_of(full.mesh.positions) / size_of(imported.scene.positions);
+  if (std::abs(options.unit_m - 1) > 1e-3) {
+    ORIEL_TRY(imported, import_gltf(settings.scene, options, context));
+  }
+  const BarePack bare(full);
+  ORIEL_TRY(const Accel shown, Accel::build(bare.scene));
+  ORIEL_TRY(const Accel casters, Accel::build(imported.scene));
+  ORIEL_TRY(const auto window, gpu::HeadlessContext::create());
+  ORIEL_TRY(const gpu::Device device, gpu::open_device());
+  ORIEL_TRY(const auto renderer, Renderer::create(device));
+  EdgeBench bench(settings, bare, shown, casters, device, *renderer);
+  std::map<std::uint32_t, LampSum> sums;
+  for (const Eye& eye : bench.eyes(full.cameras)) ORIEL_TRY_VOID(bench.look(eye, sums[eye.lamp]));
+  std::printf("| lamp | eyes | edges, pixels of them | median, px | within 1.5 px | lit in shadow | dark in light | penumbrae, rms | lit by pixel | worst |\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
+  for (auto& [lamp, sum] : sums) {
+    std::ranges::sort(sum.off);
+    const std::size_t n = std::max<std::size_t>(sum.off.size(), 1);
+    sum.off.resize(n);
+    const auto close = std::ranges::upper_bound(sum.off, kOff) - sum.off.begin();
+    std::printf("| %u | %zu | %zu | %.2f | %.2f %% | %zu | %zu | %.3f | %.1f %% | %s |\n", lamp, sum.eyes, n, double{sum.off[n / 2]},
+                100.0 * static_cast<double>(close) / static_cast<double>(n), sum.lit_in_shadow, sum.dark_in_light,
+                std::sqrt(sum.squares / static_cast<double>(std::max<std::size_t>(sum.soft, 1))),
+                100.0 * static_cast<double>(sum.lit_by_pixel) / static_cast<double>(std::max<std::size_t>(sum.lit_by_pixel + sum.lit_in_texels, 1)),
+                sum.worst.c_str());
+  }
+  return {};
+}
+
+}  // namespace
+}  // namespace oriel
+
+int main(int argc, char** argv) {
+  using namespace oriel;
+  Settings settings;
+  if (const auto code = parse_options(
+          argc, argv, "Edges of shadows by pixel beside rays",
+          {{"SCENE", "Arguments", "That was baked", text(settings.scene, "SCENE"), Use::kRequired},
+           {"PACK", "Arguments", "A bake of it", text(settings.pack, "PACK"), Use::kRequired},
+           {"--eyes", "Options", "How many", number(settings.eyes, 1, 1e6)},
+           {"--size", "Options", "Pixels of a frame: W,H", numbers(settings.size, 1, 1e5)},
+           {"--pictures", "Options", "Writes NAME0.ppm and so on: shown, right, and their difference",
+            text(settings.picture, "NAME")}}))
+    return *code;
+  const Status done = run(settings);
+  if (!done) std::fprintf(stderr, "%s\n", done.error().text().c_str());
+  return done ? 0 : static_cast<int>(done.error().code);
+}
