@@ -1,9 +1,12 @@
 #include "bake/plan/census.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "bake/brdf/specular.h"
+#include "bake/radiosity/texels/sharp_charts.h"
+#include "formats/assets/sharp_light.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -100,6 +103,26 @@ StageCensus radiosity_stage(const CensusInput& in, const LightCensus& lights) {
           : texels == 0 ? "no surface takes part in light transport"
                         : fmt::format("irradiance on {} texels of {:.3g} m", texels, in.prepared.atlas.texel_m),
           {{"texels", texels}, {"pages", in.prepared.atlas.pages.size()}}};
+}
+
+StageCensus sharp_light_stage(const CensusInput& in) {
+  const Scene& scene = in.prepared.scene();
+  if (scene.lights.empty()) return {"sharp light", false, "no light by the pixel: no points, spots and suns", {}};
+  std::map<std::string, std::vector<std::string>> in_texels;
+  for (const Light& light : scene.lights)
+    if (const char* why = why_in_texels(scene, light)) in_texels[why].push_back(light.name);
+  const SharpCharts sharp = find_sharp_charts(scene, in.prepared.atlas);
+  const std::ptrdiff_t flat = std::ranges::count_if(sharp.charts, &ChartGrid::flat);
+  std::string why = fmt::format("light of {} of {} points, spots and suns by the pixel, on flat charts",
+                                sharp.lights.size(), scene.lights.size());
+  if (sharp.lights.size() > kMostShines) why += fmt::format(", of each the {} brightest", kMostShines);
+  for (const auto& [reason, names] : in_texels)
+    why += fmt::format("; {}{} in texels: {}", names[0],
+                       names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "", reason);
+  return {"sharp light",
+          flat > 0,
+          why,
+          {{"charts", static_cast<std::uint64_t>(flat)}, {"of", in.prepared.atlas.chart_count}}};
 }
 
 StageCensus directional_stage(const CensusInput& in) {
@@ -222,6 +245,7 @@ Census take_census(const CensusInput& in) {
   c.materials = list_materials(in);
   if (in.options.with_radiance) c.reflectors = list_reflectors(in.reflections);
   c.stages = {radiosity_stage(in, c.lights),
+              sharp_light_stage(in),
               directional_stage(in),
               radiance_stage(in, c.lights.dark),
               surround_stage(in, c.lights.dark),

@@ -52,7 +52,8 @@ struct ReflectorCensus {
 
 // A part of the bake: whether it runs, and on how much.
 struct StageCensus {
-  std::string name;  // "radiosity", "directional", "radiance", "surround", "kernels", "fresnel", "movers", "visibility"
+  std::string name;  // "radiosity", "sharp light", "directional", "radiance", "surround", "kernels", "fresnel",
+                     // "movers", "visibility"
   bool runs = false;
   std::string why;                                             // one sentence
   std::vector<std::pair<std::string, std::uint64_t>> amounts;  // "texels", …

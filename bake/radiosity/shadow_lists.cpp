@@ -72,8 +72,7 @@ Result<ShadowLists> list_shadows(const LightmapScene& scene, const SharpCharts& 
   const std::vector<TileOfChart> tiles = tiles_of(sharp);
   ShadowLists out;
   out.at.resize(scene.map.size());
-  for (const std::uint32_t light : sharp.lights)
-    out.light.lamps.push_back(sharp_lamp(scene.transport.accel.scene(), light));
+  add_lamps(scene.transport.accel.scene(), sharp.lights, out.light);
   SharpWriter writer(casters, out.light);
   for (std::size_t first = 0; first < tiles.size(); first += kTilesAtOnce) {
     if ((enough && enough()) || out.light.words.size() > kMostSharpWords / 2 ||

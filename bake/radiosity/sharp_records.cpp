@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/trace/punctual.h"
 #include "formats/assets/light_field.h"
 #include "formats/core/half.h"
 
@@ -15,19 +16,60 @@ std::size_t SharpRecord::words() const {
   return sum;
 }
 
-SharpLamp sharp_lamp(const Scene& scene, std::uint32_t index) {
-  const Light& light = scene.lights[index];
-  SharpLamp lamp{.sun = light.type == LightType::kDirectional,
-                 .position = light.position,
-                 .direction = light.direction,
-                 .intensity = light.intensity,
-                 .angular_radius_rad = light.angular_radius_rad};
-  if (light.type == LightType::kSpot) {
-    lamp.cos_outer = std::cos(light.outer_cone_rad);
-    lamp.inverse_falloff = 1 / std::max(kSharpestCone, std::cos(light.inner_cone_rad) - lamp.cos_outer);
+namespace {
+
+// The fewest even steps, the first at 0, that have each angle on one of them.
+std::uint32_t even_steps(std::span<const float> angles, float range) {
+  std::uint32_t n = 1;
+  const auto is_on_step = [&](float angle) {
+    const float at = angle * static_cast<float>(n) / range;
+    return std::abs(at - std::round(at)) < 1e-3f;
+  };
+  while (n < kMostProfileSteps && !std::ranges::all_of(angles, is_on_step)) ++n;
+  return n;
+}
+
+LampProfile even_profile(const LightProfile& measured) {
+  LampProfile out{measured.vertical_deg.front(), measured.vertical_deg.back(), 0, 1, {}};
+  const float range = out.last_deg - out.first_deg;
+  std::vector<float> angles;
+  for (const float angle : measured.vertical_deg) angles.push_back(angle - out.first_deg);
+  const std::uint32_t last = even_steps(angles, range);
+  out.rows = last + 1;
+  angles = measured.horizontal_deg;
+  angles.push_back(180);  // what is measured on one side alone is mirrored there
+  if (measured.horizontal_deg.size() > 1) out.columns = even_steps(angles, 360);
+  for (std::uint32_t i = 0; i < out.rows * out.columns; ++i) {
+    const float down = static_cast<float>(i / out.columns) / static_cast<float>(last),
+                turn = static_cast<float>(i % out.columns) / static_cast<float>(out.columns);
+    out.candela.push_back(profile_candela(measured, out.first_deg + down * range, 360 * turn));
   }
-  if (!scene.light_groups.empty()) lamp.light_group = light.light_group;
-  return lamp;
+  return out;
+}
+
+}  // namespace
+
+void add_lamps(const Scene& scene, std::span<const std::uint32_t> lights, SharpLight& out) {
+  std::map<std::int32_t, std::int32_t> profiles;
+  for (const std::uint32_t index : lights) {
+    const Light& light = scene.lights[index];
+    SharpLamp lamp{.sun = light.type == LightType::kDirectional,
+                   .position = light.position,
+                   .direction = light.direction,
+                   .intensity = light.intensity,
+                   .angular_radius_rad = light.angular_radius_rad};
+    if (light.profile >= 0) {
+      const auto [known, anew] = profiles.try_emplace(light.profile, static_cast<std::int32_t>(out.profiles.size()));
+      if (anew) out.profiles.push_back(even_profile(scene.profiles[static_cast<std::size_t>(light.profile)]));
+      lamp.profile = known->second, lamp.intensity = light.color;
+      lamp.right = light.right, lamp.over = (light.mirrored ? -1.0f : 1.0f) * glm::cross(light.right, light.direction);
+    } else if (light.type == LightType::kSpot) {
+      lamp.cos_outer = std::cos(light.outer_cone_rad);
+      lamp.inverse_falloff = 1 / std::max(kSharpestCone, std::cos(light.inner_cone_rad) - lamp.cos_outer);
+    }
+    if (!scene.light_groups.empty()) lamp.light_group = light.light_group;
+    out.lamps.push_back(lamp);
+  }
 }
 
 SharpWriter::SharpWriter(const ShadowCasters& casters, SharpLight& light) : casters_(casters), light_(light) {

@@ -26,7 +26,8 @@ struct SharpRecord {
   std::size_t words() const;
 };
 
-SharpLamp sharp_lamp(const Scene& scene, std::uint32_t light);
+// Those lights of the scene, and their profiles.
+void add_lamps(const Scene& scene, std::span<const std::uint32_t> lights, SharpLight& out);
 
 // Numbers triangles as they come, and keeps records that are equal once.
 class SharpWriter {

@@ -115,7 +115,7 @@ class TileLister {
 
   bool is_beyond_cone(std::uint32_t lamp, const Square& s) const {
     const oriel::Light& light = light_of(lamp);
-    if (light.type != LightType::kSpot) return false;
+    if (light.type != LightType::kSpot || light.profile >= 0) return false;
     const DVec3 to = chart_.at(s.lower + 0.5 * s.side) - DVec3(light.position);
     const double reach = 0.5 * s.side * (glm::length(chart_.along_x) + glm::length(chart_.along_y));
     const double distance = glm::length(to);

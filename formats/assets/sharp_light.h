@@ -13,13 +13,22 @@ namespace oriel {
 
 struct SharpLamp {
   bool sun = false;
-  Vec3 position{0};                 // point, spot; pack space
-  Vec3 direction{0, 0, -1};         // spot, sun: unit, the way the light travels
-  Vec3 intensity{0};                // point, spot: cd on the axis; sun: lux on a plane that faces it
+  Vec3 position{0};                 // but of a sun; pack space
+  Vec3 direction{0, 0, -1};         // spot, sun: unit, the way the light travels; of a profile angle 0
+  Vec3 intensity{0};                // cd on the axis; sun: lux on a plane that faces it; times a profile's candela
   float cos_outer = -2;             // of a spot's half angle; a point's is below all cosines
   float inverse_falloff = 1;        // > 0: intensity times t², t = clamp((cosine - cos_outer) * inverse_falloff, 0, 1)
   float angular_radius_rad = 0;     // sun
   std::uint32_t light_group = ~0u;  // into Pack::light_groups, whose factors it follows; ~0u: none
+  std::int32_t profile = -1;        // into SharpLight::profiles: no sun and no cone
+  Vec3 right{1, 0, 0}, over{0, 1, 0};  // of a profile: unit, horizontal 0° and 90°
+};
+
+// Candela by direction, bilinear between even steps.
+struct LampProfile {
+  float first_deg = 0, last_deg = 180;  // vertical; beyond there is no light
+  std::uint32_t rows = 2, columns = 1;  // from the first vertical angle to the last; all around, from 0° on
+  std::vector<float> candela;           // row by row
 };
 
 // A page's LightmapPage::sharp_at holds, by texel, where in `words` its record begins; 0: there is none, and all light
@@ -35,6 +44,7 @@ struct SharpLamp {
 inline constexpr std::uint32_t kSharpSplit = ~0u;
 inline constexpr int kMostSharpSplits = 5;  // of a texel into quarters of quarters
 inline constexpr std::uint32_t kMostSharpLamps = 1024;
+inline constexpr std::uint32_t kMostProfileSteps = 720;  // of a LampProfile, either way: half a degree all around
 // Of a record: lamps, and triangles of each. A frame of one chart takes 40 ms more for a lamp
 // (docs/notes/sharp-light.md).
 inline constexpr std::uint32_t kMostShines = 16, kMostListed = 64;
@@ -55,6 +65,7 @@ struct SharpLight {
   std::vector<SharpLamp> lamps;  // none: all light is the lightmap's
   std::vector<std::uint32_t> words;
   std::vector<std::array<Vec3, 3>> triangles;  // pack space
+  std::vector<LampProfile> profiles;
 
   bool empty() const { return lamps.empty(); }
 };

@@ -72,14 +72,27 @@ void describe(Serial& s, Day& day) {
 
 void describe(Serial& s, SharpLight& light) {
   const std::uint32_t lamps = s.count(light.lamps), words = s.count(light.words), triangles = s.count(light.triangles);
+  std::int32_t profiles = 0;
   s.list(light.lamps, lamps, [&](SharpLamp& lamp) {
-    s.choice("sun flag", 1, lamp.sun);
+    std::uint8_t kind = lamp.profile >= 0 ? 2 : lamp.sun ? 1 : 0;
+    s.choice("kind of lamp", 2, kind);
+    lamp.sun = kind == 1;
     s.reserved(3);
     s(lamp.position, lamp.direction, lamp.intensity, lamp.cos_outer, lamp.inverse_falloff, lamp.angular_radius_rad,
       lamp.light_group);
+    if (kind != 2) return;
+    s(lamp.profile, lamp.right, lamp.over);
+    if (lamp.profile < 0 || lamp.profile >= static_cast<std::int32_t>(kMostSharpLamps))
+      return s.refuse("found profile {}, expected 0 to {}", lamp.profile, kMostSharpLamps - 1);
+    profiles = std::max(profiles, lamp.profile + 1);
   });
   s.planes(light.words, words);
   s.planes(light.triangles, triangles);
+  s.list(light.profiles, static_cast<std::uint32_t>(profiles), [&](LampProfile& profile) {
+    s(profile.first_deg, profile.last_deg);
+    s.size(profile.rows, profile.columns);
+    s.planes(profile.candela, std::uint64_t{profile.rows} * profile.columns);
+  });
 }
 
 }  // namespace oriel

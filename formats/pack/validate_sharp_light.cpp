@@ -6,8 +6,21 @@
 namespace oriel {
 namespace {
 
-bool is_sharp_lamp(const SharpLamp& lamp, std::size_t groups) {
-  return bounded(lamp.position) && std::abs(glm::length(DVec3(lamp.direction)) - 1) <= 1e-3 &&
+bool is_unit(const Vec3& v) {
+  return std::abs(glm::length(DVec3(v)) - 1) <= 1e-3;
+}
+
+bool is_profile(const LampProfile& p) {
+  return p.first_deg >= 0 && p.first_deg < p.last_deg && p.last_deg <= 180 && p.rows >= 2 && p.columns >= 1 &&
+         p.rows <= kMostProfileSteps + 1 && p.columns <= kMostProfileSteps &&
+         p.candela.size() == std::size_t{p.rows} * p.columns &&
+         std::ranges::all_of(p.candela, [](float candela) { return not_negative(candela); });
+}
+
+bool is_sharp_lamp(const SharpLamp& lamp, std::size_t groups, std::span<const LampProfile> profiles) {
+  return bounded(lamp.position) && is_unit(lamp.direction) && is_unit(lamp.right) && is_unit(lamp.over) &&
+         lamp.profile < std::ssize(profiles) &&
+         (lamp.profile < 0 || is_profile(profiles[static_cast<std::size_t>(lamp.profile)])) &&
          not_negative(lamp.intensity) && within(lamp.cos_outer, -2, 1) && lamp.inverse_falloff > 0 &&
          not_negative(lamp.inverse_falloff) && lamp.angular_radius_rad >= 0 && lamp.angular_radius_rad < kPi / 2 &&
          (lamp.light_group < groups || lamp.light_group == ~0u);
@@ -76,14 +89,15 @@ void validate_sharp_light(const Pack& pack, IssueList& list) {
                kMostSharpTriangles);
   for (std::size_t i = 0; i < light.lamps.size(); ++i) {
     const SharpLamp& lamp = light.lamps[i];
-    if (!is_sharp_lamp(lamp, pack.light_groups.size()))
+    if (!is_sharp_lamp(lamp, pack.light_groups.size(), light.profiles))
       list.error(
           312,
-          "lamp {}: found place {}, direction {}, intensity {}, cone {} and {}, radius {} and group {}, expected "
-          "finite numbers, length 1, intensities from 0 up, -2 to 1, above 0, less than a right angle and one "
-          "of {} groups or none",
+          "lamp {}: found place {}, direction {}, intensity {}, cone {} and {}, radius {}, group {} and profile {}, "
+          "expected finite numbers, length 1, intensities from 0 up, -2 to 1, above 0, less than a right angle, one "
+          "of {} groups or none, and one of {} whose angles rise from 0 to at most 180, of at most {} steps",
           i, text_of(lamp.position), text_of(lamp.direction), text_of(lamp.intensity), lamp.cos_outer,
-          lamp.inverse_falloff, lamp.angular_radius_rad, lamp.light_group, pack.light_groups.size());
+          lamp.inverse_falloff, lamp.angular_radius_rad, lamp.light_group, lamp.profile, pack.light_groups.size(),
+          light.profiles.size(), kMostProfileSteps);
   }
   for (std::size_t i = 0; i < light.triangles.size(); ++i)
     for (const Vec3& corner : light.triangles[i])

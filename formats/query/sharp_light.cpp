@@ -18,8 +18,10 @@ struct ShiningLamp {
   Vec3 light{0};       // lux, without shadows
 };
 
-ShiningLamp shining(const SharpLamp& lamp, const Vec3& p, const Vec3& normal, std::span<const Vec3> factors) {
+ShiningLamp shining(const SharpLight& light, const SharpLamp& lamp, const SharpPlace& at,
+                    std::span<const Vec3> factors) {
   const Vec3 power = lamp.light_group < factors.size() ? lamp.intensity * factors[lamp.light_group] : lamp.intensity;
+  const Vec3 &p = at.position, &normal = at.normal;
   if (lamp.sun)
     return {-lamp.direction, 0, std::tan(lamp.angular_radius_rad),
             power * std::max(-glm::dot(normal, lamp.direction), 0.0f)};
@@ -28,7 +30,10 @@ ShiningLamp shining(const SharpLamp& lamp, const Vec3& p, const Vec3& normal, st
   const Vec3 towards = to / distance;
   const float cone =
       std::clamp((-glm::dot(lamp.direction, towards) - lamp.cos_outer) * lamp.inverse_falloff, 0.0f, 1.0f);
-  return {towards, distance, 0, power * (cone * cone * std::max(glm::dot(normal, towards), 0.0f) / distance2)};
+  const float share = lamp.profile < 0
+                          ? cone * cone
+                          : candela_of(light.profiles[static_cast<std::size_t>(lamp.profile)], lamp, -towards);
+  return {towards, distance, 0, power * (share * std::max(glm::dot(normal, towards), 0.0f) / distance2)};
 }
 
 // One of a triangle's edges as a point sees it: a plane through both.
@@ -125,6 +130,27 @@ const std::array<Vec2, 64> kSunPlaces = [] {
   return places;
 }();
 
+float candela_of(const LampProfile& profile, const SharpLamp& lamp, const Vec3& direction) {
+  const Vec2 across(glm::dot(lamp.right, direction), glm::dot(lamp.over, direction));
+  const float vertical = std::atan2(glm::length(across), glm::dot(lamp.direction, direction)) * (180 / kPi);
+  // What was measured at 90° must still be found there.
+  if (vertical < profile.first_deg - 1e-4f || vertical > profile.last_deg + 1e-4f) return 0;
+  const float last = static_cast<float>(profile.rows - 1);
+  const float y =
+      std::clamp((vertical - profile.first_deg) / (profile.last_deg - profile.first_deg), 0.0f, 1.0f) * last;
+  const float turns = std::atan2(across.y, across.x) / (2 * kPi);
+  const float x = (turns - std::floor(turns)) * static_cast<float>(profile.columns);
+  const std::uint32_t row = std::min(static_cast<std::uint32_t>(y), profile.rows - 2),
+                      column = std::min(static_cast<std::uint32_t>(x), profile.columns - 1),
+                      next = (column + 1) % profile.columns;
+  const float down = y - static_cast<float>(row);
+  const auto at = [&](std::uint32_t c) {
+    const float* candela = &profile.candela[std::size_t{row} * profile.columns + c];
+    return glm::mix(candela[0], candela[profile.columns], down);
+  };
+  return glm::mix(at(column), at(next), x - static_cast<float>(column));
+}
+
 Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const SharpPlace& at,
                       std::span<const Vec3> factors) {
   if (page.sharp_at.empty()) return Vec3(0);
@@ -136,7 +162,7 @@ Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const S
     const SharpShine shine = SharpShine::of(words[0]);
     const Vec3 tint = shine.tinted ? rgb_from_rgb9e5(words[1]) : Vec3(1);
     words = words.subspan(shine.tinted ? 2 : 1);
-    const ShiningLamp lamp = shining(light.lamps[shine.lamp], at.position, at.normal, factors);
+    const ShiningLamp lamp = shining(light, light.lamps[shine.lamp], at, factors);
     if (max_component(lamp.light) > 0)
       sum += lamp.light * tint * visible_share(light, lamp, words.first(shine.count), at.position);
     words = words.subspan(shine.count);

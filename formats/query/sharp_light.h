@@ -18,6 +18,9 @@ struct SharpPlace {
   Vec3 position{0}, normal{0, 1, 0};
 };
 
+// Along a unit direction that leaves the lamp.
+float candela_of(const LampProfile& profile, const SharpLamp& lamp, const Vec3& direction);
+
 // lux that sharp light brings to a place of a page. Both are as validate() wants them. factors: by light group, how
 // many times lamps shine (empty: once).
 Vec3 sharp_irradiance(const SharpLight& light, const LightmapPage& page, const SharpPlace& at,

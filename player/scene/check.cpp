@@ -83,7 +83,9 @@ void check_movers(const Pack& pack, Limits& limits) {
 
 void check_sharp_light(const SharpLight& light, Limits& limits) {
   if (light.empty()) return;
-  const std::size_t most = std::max(light.words.size() + 2 * kSharpColumns, 4 * light.triangles.size());
+  std::size_t of_triangles = 4 * light.triangles.size();
+  for (const LampProfile& profile : light.profiles) of_triangles += profile.candela.size() + kSharpColumns;
+  const std::size_t most = std::max(light.words.size() + 2 * kSharpColumns, of_triangles);
   limits.side("sharp light", std::max({kSharpColumns, (most + kSharpColumns - 1) / kSharpColumns, light.lamps.size()}));
 }
 

@@ -12,6 +12,7 @@ inline constexpr std::size_t kSharpColumns = 4096;  // of words, and of triangle
 
 struct GpuSharpLight {
   gpu::Texture2d words, triangles, lamps;  // none where there is no such light
+  std::vector<std::size_t> profile_rows;   // of `triangles`, where they begin
   bool suns = false;                       // some lamps are
 
   static GpuSharpLight upload(const SharpLight& light);

@@ -1,7 +1,7 @@
 // Direct light of points, spots and suns by the pixel (formats/assets/sharp_light.h, docs/notes/sharp-light.md).
 uniform highp usampler2D u_sharp_at;        // by texel of the page
 uniform highp usampler2D u_sharp_words;     // 4096 a row; before them two rows of half_disk()
-uniform highp sampler2D u_sharp_triangles;  // likewise, four texels each: corners, and one unused
+uniform highp sampler2D u_sharp_triangles;  // likewise, four texels each: corners, and one unused; then profiles
 uniform highp sampler2D u_sharp_lamps;      // a row each, see lamp_at()
 
 const uint kSharpSplit = 0xffffffffu;
@@ -23,6 +23,22 @@ vec3 color_of_word(uint code) {
   return vec3(code & 511u, code >> 9u & 511u, code >> 18u & 511u) * exp2(float(code >> 27u) - 24.0);
 }
 
+// Candela along a unit direction. place.w: less the profile's columns; axis.w: its first vertical angle; steps: a radian.
+float profile_candela(int row, vec4 place, vec4 axis, float steps, vec3 direction) {
+  vec4 right = texelFetch(u_sharp_lamps, ivec2(3, row), 0);  // horizontal 0, and the last row
+  vec4 over = texelFetch(u_sharp_lamps, ivec2(4, row), 0);   // horizontal 90 degrees, and where in u_sharp_triangles
+  vec2 across = vec2(dot(right.xyz, direction), dot(over.xyz, direction));
+  float y = (atan(length(across), dot(axis.xyz, direction)) - axis.w) * steps;
+  if (abs(y - 0.5 * right.w) > 0.5 * right.w + 1e-4) return 0.0;
+  if (across == vec2(0.0)) across.x = 1.0;
+  float x = fract(atan(across.y, across.x) / 6.2831853) * -place.w;
+  vec2 at = clamp(floor(vec2(x, y)), vec2(0.0), vec2(-place.w, right.w) - 1.0);
+  // Itself, the next row's, and both of the next column.
+  vec4 around = texelFetch(u_sharp_triangles, sharp_texel(uint(over.w) * 4096u + uint(at.y * -place.w + at.x)), 0);
+  vec2 between = mix(around.xz, around.yw, clamp(y - at.y, 0.0, 1.0));
+  return mix(between.x, between.y, clamp(x - at.x, 0.0, 1.0));
+}
+
 SharpLamp lamp_at(int row, vec3 p, vec3 normal) {
   vec4 place = texelFetch(u_sharp_lamps, ivec2(0, row), 0);   // of a sun the way to it, and 1
   vec4 axis = texelFetch(u_sharp_lamps, ivec2(1, row), 0);    // and the cosine of its outer cone
@@ -34,7 +50,8 @@ SharpLamp lamp_at(int row, vec3 p, vec3 normal) {
   float distance2 = max(dot(to, to), 1e-12);
   vec3 towards = to * inversesqrt(distance2);
   float cone = clamp((-dot(axis.xyz, towards) - axis.w) * power.w, 0.0, 1.0);
-  return SharpLamp(to, 1.0, 0.0, power.rgb * (cone * cone * max(dot(normal, towards), 0.0) / distance2));
+  float share = place.w < 0.0 ? profile_candela(row, place, axis, power.w, -towards) : cone * cone;
+  return SharpLamp(to, 1.0, 0.0, power.rgb * (share * max(dot(normal, towards), 0.0) / distance2));
 }
 
 float extent(vec3 v) { return dot(abs(v), vec3(1.0)); }

@@ -107,6 +107,30 @@ TEST_F(SharpLightTest, ASpotsConeFadesAsItsAngles) {
     }
 }
 
+TEST_F(SharpLightTest, AProfileIsBilinearBetweenItsAngles) {
+  SharpLamp lamp = point_above();
+  lamp.direction = glm::normalize(Vec3(0.2f, -1, 0.1f)), lamp.profile = 1;
+  lamp.right = glm::normalize(Vec3(1, 0.2f, 0)), lamp.over = glm::cross(lamp.direction, lamp.right);
+  Pack pack = dark_floor();
+  pack.sharp_light.lamps = {lamp};
+  const std::vector<float> candela{1, 2, 3, 2, 4, 0, 4, 8, 1, 1, 2, 2};
+  pack.sharp_light.profiles = {{0, 90, 2, 1, {9, 9}}, {10, 50, 3, 4, candela}};
+  add_record(pack, {SharpShine{0, false, 0}.code()});
+  const Picture picture = draw(pack, down_from({0, 1, 0}, 1.9f), 65, 65);
+  for (int i = 0; i < 65 * 65; ++i) {
+    const Vec3 p = FloorFrame{65, 1.9f}.at(i % 65, i / 65), way = glm::normalize(p - kLampAbove);
+    const float down = (glm::degrees(std::acos(glm::dot(way, lamp.direction))) - 10) / 20,
+                around = std::atan2(glm::dot(way, lamp.over), glm::dot(way, lamp.right)) / (kPi / 2);
+    if (std::min(std::abs(down), std::abs(down - 2)) < 1e-3f) continue;
+    const auto row = static_cast<std::size_t>(down < 1 ? 0 : 4), column = static_cast<std::size_t>(around + 4) % 4;
+    const float t = down < 1 ? down : down - 1, s = around - std::floor(around);
+    const float one = glm::mix(candela[row + column], candela[row + 4 + column], t),
+                next = glm::mix(candela[row + (column + 1) % 4], candela[row + 4 + (column + 1) % 4], t);
+    const Vec3 lit = glm::mix(one, next, s) * open_light(kLampAbove, p) * (kFloorAlbedo / kPi);
+    expect_close(picture.at(i % 65, i / 65), down > 0 && down < 2 ? lit : Vec3(0), 0.01f);
+  }
+}
+
 struct BoardWidth {
   float west, east;
 };

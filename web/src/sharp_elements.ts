@@ -3,19 +3,27 @@ import * as v from './vec';
 import { vec3, list } from './elements';
 import { PieceError } from './bytes';
 import type { ByteReader } from './bytes';
-import type { Page, SharpLamp, SharpLight } from './types';
+import type { LampProfile, Page, SharpLamp, SharpLight } from './types';
 import type { Vec3 } from './vec';
 
-const split = 0xffffffff, mostSplits = 5, mostShines = 16, mostListed = 64;
+const split = 0xffffffff, mostSplits = 5, mostShines = 16, mostListed = 64, mostLamps = 1024, mostProfileSteps = 720;
 
 function readLamp(r: ByteReader): SharpLamp {
-  const sun = r.choice(1, 'sun flag') > 0;
+  const kind = r.choice(2, 'kind of lamp');
   for (let i = 0; i < 3; ++i) r.choice(0, 'reserved byte');
   const lamp = {
-    sun, position: vec3(r), direction: vec3(r), intensity: vec3(r), cosOuter: r.f32(), inverseFalloff: r.f32(), angularRadius: r.f32(), group: r.u32(),
+    sun: kind === 1, position: vec3(r), direction: vec3(r), intensity: vec3(r), cosOuter: r.f32(), inverseFalloff: r.f32(), angularRadius: r.f32(), group: r.u32(),
+    ...(kind === 2 ? { profile: r.u32(), right: vec3(r), over: vec3(r) } : { profile: -1, right: [1, 0, 0] as Vec3, over: [0, 1, 0] as Vec3 }),
   };
   if (lamp.intensity.some((c) => c < 0) || !(lamp.angularRadius >= 0 && lamp.angularRadius < Math.PI / 2)) r.fail('found a lamp of negative light or size');
+  if (lamp.profile >= mostLamps) r.fail(`found profile ${lamp.profile}`);
   return lamp;
+}
+
+function readProfile(r: ByteReader): LampProfile {
+  const first = r.f32(), last = r.f32(), rows = r.size(mostProfileSteps + 1, 'rows'), columns = r.size(mostProfileSteps, 'columns');
+  if (!(first >= 0 && first < last && last <= 180 && rows > 1 && columns > 0)) r.fail('found a profile without angles');
+  return { first, last, rows, columns, candela: r.planesF32(rows * columns, 1) };
 }
 
 // By word: 0, or 1 and how many splits are below the record that begins there.
@@ -45,10 +53,11 @@ function recordsOf(r: ByteReader, words: Uint32Array, lamps: number, triangles: 
 }
 
 export function readSharp(r: ByteReader): SharpLight {
-  const lamps = r.size(1024, 'lamps'), words = r.size(2 ** 25, 'words'), triangles = r.size(2 ** 24, 'triangles');
+  const lamps = r.size(mostLamps, 'lamps'), words = r.size(2 ** 25, 'words'), triangles = r.size(2 ** 24, 'triangles');
   if (lamps === 0 || words === 0) r.fail('found no lamps');
   const read = { lamps: list(r, lamps, readLamp), words: r.planesU32(words), triangles: r.planesF32(triangles, 9) };
-  return { ...read, records: recordsOf(r, read.words, lamps, triangles) };
+  const profiles = list(r, Math.max(...read.lamps.map((l) => l.profile)) + 1, readProfile);
+  return { ...read, profiles, records: recordsOf(r, read.words, lamps, triangles) };
 }
 
 /** Refuses a page whose places are not those of records. */
@@ -108,6 +117,17 @@ function recordAt(light: SharpLight, page: Page, s: number, t: number): number {
   return light.words[place] === split ? 0 : place;
 }
 
+// Along a unit direction that leaves the lamp.
+function candelaOf(profile: LampProfile, lamp: SharpLamp, direction: Vec3): number {
+  const { first, last, rows, columns, candela } = profile, x = v.dot(lamp.right, direction), y = v.dot(lamp.over, direction);
+  const vertical = (Math.atan2(Math.hypot(x, y), v.dot(lamp.direction, direction)) * 180) / Math.PI;
+  if (vertical < first - 1e-4 || vertical > last + 1e-4) return 0;
+  const down = Math.min(Math.max((vertical - first) / (last - first), 0), 1) * (rows - 1), turns = Math.atan2(y, x) / (2 * Math.PI), around = (turns - Math.floor(turns)) * columns;
+  const row = Math.min(Math.floor(down), rows - 2), column = Math.min(Math.floor(around), columns - 1);
+  const at = (c: number): number => candela[row * columns + (c % columns)]! * (1 + row - down) + candela[(row + 1) * columns + (c % columns)]! * (down - row);
+  return at(column) * (1 + column - around) + at(column + 1) * (around - column);
+}
+
 /** Luminance of it at a place of a page, lux. normal: unit. */
 export function sharpLux(light: SharpLight, page: Page, uv: [number, number], p: Vec3, normal: Vec3, factors: Vec3[]): number {
   let at = recordAt(light, page, ...uv), sum = 0;
@@ -116,7 +136,7 @@ export function sharpLux(light: SharpLight, page: Page, uv: [number, number], p:
     const code = words[at++]!, l = light.lamps[code & 1023]!, count = code >>> 11;
     const tint = code & 1024 ? words[at++]! : 0, to = l.sun ? v.scale(l.direction, -1) : v.sub(l.position, p), distance = Math.max(v.length(to), 1e-6);
     const towards = v.scale(to, 1 / distance), cosine = v.dot(normal, towards), cone = Math.min(Math.max((-v.dot(l.direction, towards) - l.cosOuter) * l.inverseFalloff, 0), 1);
-    const scale = Math.max(cosine, 0) * (l.sun ? 1 : (cone / distance) ** 2);
+    const scale = Math.max(cosine, 0) * (l.sun ? 1 : (l.profile < 0 ? cone ** 2 : candelaOf(light.profiles[l.profile]!, l, v.scale(towards, -1))) / distance ** 2);
     const lux = powerOf(l, factors).reduce((y, c, k) => y + [0.2126, 0.7152, 0.0722][k]! * c * (code & 1024 ? ((tint >>> (9 * k)) & 511) * 2 ** ((tint >>> 27) - 24) : 1), 0);
     const lamp = { towards, distance: l.sun ? 1e20 : distance, spread: l.sun ? Math.tan(l.angularRadius) : 0 };
     if (scale * lux > 0) sum += scale * lux * visibleShare(light, lamp, words.subarray(at, at + count), p);

@@ -8,11 +8,17 @@ import type { Vec3 } from './vec';
 export const sharpColumns = 4096;  // of its textures
 const rowsFor = (n: number): number => Math.max(Math.ceil(n / sharpColumns), 1);
 const halfDisks = 2 * sharpColumns;
-export const sharpRows = (light: SharpLight): number => Math.max(rowsFor(light.words.length + halfDisks), rowsFor(light.triangles.length / 9 * 4));
+/** Of the texture of triangles, where profiles begin; at last its end. */
+function profileRows(light: SharpLight): number[] {
+  const rows = [rowsFor(light.triangles.length / 9 * 4)];
+  for (const p of light.profiles) rows.push(rows.at(-1)! + rowsFor(p.candela.length));
+  return rows;
+}
+export const sharpRows = (light: SharpLight): number => Math.max(rowsFor(light.words.length + halfDisks), profileRows(light).at(-1)!);
 
 export interface GpuSharp { suns: boolean; words: WebGLTexture; triangles: WebGLTexture; lamps: WebGLTexture; }
 export function uploadSharp(gl: WebGL2RenderingContext, light: SharpLight, factors: Vec3[], unit: number): GpuSharp {
-  const corners = light.triangles.length / 3, rows = rowsFor(light.words.length + halfDisks), ofTriangles = rowsFor(corners / 3 * 4);
+  const corners = light.triangles.length / 3, rows = rowsFor(light.words.length + halfDisks), ofProfiles = profileRows(light), ofTriangles = ofProfiles.at(-1)!;
   const words = new Uint32Array(rows * sharpColumns), triangles = new Float32Array(4 * ofTriangles * sharpColumns);
   words.set(light.words, halfDisks);
   // What the shader's half_disk() looks up: by 64 directions about the square |x| + |y| = 1, and by 64 offsets.
@@ -23,6 +29,10 @@ export function uploadSharp(gl: WebGL2RenderingContext, light: SharpLight, facto
     });
   }
   for (let i = 0; i < corners; ++i) triangles.set(light.triangles.subarray(3 * i, 3 * i + 3), 4 * (i + Math.floor(i / 3)));
+  light.profiles.forEach(({ rows: count, columns, candela }, k) => candela.forEach((c, i) => {
+    const row = Math.floor(i / columns), next = row * columns + ((i + 1) % columns), down = row + 1 < count ? columns : 0;
+    triangles.set([c, candela[i + down]!, candela[next]!, candela[next + down]!], 4 * (ofProfiles[k]! * sharpColumns + i));
+  }));
   return {
     suns: light.lamps.some((l) => l.sun),
     words: makeTexture(gl, { width: sharpColumns, height: rows, format: gl.R32UI }, words),
@@ -33,9 +43,15 @@ export function uploadSharp(gl: WebGL2RenderingContext, light: SharpLight, facto
 
 /** As lamps shine now; unit: what light is multiplied by. */
 export function uploadLamps(gl: WebGL2RenderingContext, light: SharpLight, factors: Vec3[], unit: number): WebGLTexture {
+  const ofProfiles = profileRows(light), degree = Math.PI / 180;
   const texels = Float32Array.from(light.lamps.flatMap((l) => {
-    const power = v.scale(powerOf(l, factors), unit), sun = [...v.scale(l.direction, -1), 1, 0, 0, 0, 0, ...power, Math.tan(l.angularRadius)];
-    return l.sun ? sun : [...l.position, 0, ...l.direction, l.cosOuter, ...power, l.inverseFalloff];
+    const power = v.scale(powerOf(l, factors), unit), p = light.profiles[l.profile], unused = Array<number>(8).fill(0);
+    if (l.sun) return [...v.scale(l.direction, -1), 1, 0, 0, 0, 0, ...power, Math.tan(l.angularRadius), ...unused];
+    if (!p) return [...l.position, 0, ...l.direction, l.cosOuter, ...power, l.inverseFalloff, ...unused];
+    return [
+      ...l.position, -p.columns, ...l.direction, p.first * degree, ...power, (p.rows - 1) / ((p.last - p.first) * degree),
+      ...l.right, p.rows - 1, ...l.over, ofProfiles[l.profile]!,
+    ];
   }));
-  return makeTexture(gl, { width: 3, height: light.lamps.length, format: gl.RGBA32F }, texels);
+  return makeTexture(gl, { width: 5, height: light.lamps.length, format: gl.RGBA32F }, texels);
 }

@@ -25,9 +25,12 @@ export interface Page {
 }
 export interface SharpLamp {
   sun: boolean; position: Vec3; direction: Vec3; intensity: Vec3; cosOuter: number; inverseFalloff: number; angularRadius: number; group: number;
+  profile: number; right: Vec3; over: Vec3;  // -1: it has none
 }
+/** Candela: rows of vertical angles, degrees, of columns all around. */
+export interface LampProfile { first: number; last: number; rows: number; columns: number; candela: Float32Array; }
 /** triangles: nine numbers each. records: by word, whether one begins there. */
-export interface SharpLight { lamps: SharpLamp[]; words: Uint32Array; triangles: Float32Array; records: Uint8Array; }
+export interface SharpLight { profiles: LampProfile[]; lamps: SharpLamp[]; words: Uint32Array; triangles: Float32Array; records: Uint8Array; }
 export interface Reflector {
   name: string; material: number; packFromReflector: Float64Array; lower: number[]; upper: number[]; flatness: number;
   indices: Uint32Array; nodesX: number; nodesY: number; emitters: Uint32Array; visibility: Uint8Array;

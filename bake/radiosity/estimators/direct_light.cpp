@@ -7,8 +7,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kMaxPolygons = 128;
-constexpr std::size_t kMaxPunctual = 256;  // sampled one by one; of more, DirectGroup::kPicks are chosen randomly
-constexpr std::size_t kTexelsATask = 64;   // texels whose shadow rays to one light are traced together
+constexpr std::size_t kTexelsATask = 64;  // texels whose shadow rays to one light are traced together
 
 }  // namespace
 

@@ -12,16 +12,10 @@ namespace {
 
 // A sun's radius up to which its light is sharp: a blocker a metre away then has a penumbra of a texel of 10 cm.
 constexpr float kWidestSun_rad = 0.05f;
-constexpr std::size_t kMostLights = 256;  // that DirectLight visits one by one
 // How far corners may lie off the chart's plane and grid, in texels, and normals off the plane's: a degree, as charts
 // are called flat.
 constexpr double kOffGrid = 0.02, kFlatCosine = 0.9998;
 constexpr double kRounding = 1e-3;  // of places on a page of 16384 texels in floats, texels
-
-bool may_be_sharp(const Light& light) {
-  return light.profile < 0 && light.hour < 0 && light.angular_radius_rad <= kWidestSun_rad &&
-         max_component(light.intensity) > 0;
-}
 
 std::array<DVec2, 3> texel_corners(const Atlas& atlas, std::uint32_t triangle) {
   const AtlasPage& page = atlas.pages[static_cast<std::size_t>(atlas.page[triangle])];
@@ -104,12 +98,17 @@ void choose_lamps(const Scene& scene, std::span<const std::uint32_t> lights, Cha
 
 }  // namespace
 
+const char* why_in_texels(const Scene& scene, const Light& light) {
+  if (scene.lights.size() > kMaxPunctual) return "one of more than 256";
+  if (light.angular_radius_rad > kWidestSun_rad) return "so wide that its shadows have no edges";
+  return max_component(light.profile < 0 ? light.intensity : light.color) > 0 ? nullptr : "dark";
+}
+
 SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas) {
   SharpCharts out;
   out.charts.resize(atlas.chart_count);
-  if (scene.lights.size() > kMostLights) return out;
   for (std::uint32_t l = 0; l < scene.lights.size(); ++l)
-    if (may_be_sharp(scene.lights[l])) out.lights.push_back(l);
+    if (why_in_texels(scene, scene.lights[l]) == nullptr) out.lights.push_back(l);
   if (out.lights.empty()) return out;
   // The grid is that of the chart's largest triangle, by which slivers are judged.
   std::vector<std::uint32_t> largest(atlas.chart_count, ~0u);

@@ -8,6 +8,9 @@
 
 namespace oriel {
 
+// Points, spots and suns that are sampled one by one; of more, DirectGroup::kPicks are chosen randomly.
+inline constexpr std::size_t kMaxPunctual = 256;
+
 // A chart in one plane whose texels are parallelograms: (x, y) in texels lies at origin + x along_x + y along_y.
 struct ChartGrid {
   bool flat = false;  // else nothing is known
@@ -31,8 +34,10 @@ struct SharpCharts {
   }
 };
 
-// Lamps with a measured profile stay in texels, wide suns too, whose shadows have no edges that texels lose, and the
-// suns of a day. A chart has its brightest few: each costs the time of a frame.
+// Why a lamp's light stays in texels on all charts; null: it need not.
+const char* why_in_texels(const Scene& scene, const Light& light);
+
+// A chart has its brightest few: each costs the time of a frame.
 SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas);
 
 // Numbers of charts that differ, too, where other lights of theirs are apart. sharp: may be null.

@@ -100,6 +100,26 @@ TEST(Census, AMatteRoomNeedsItsLightmapAlone) {
   EXPECT_TRUE(plan->findings.empty()) << plan->findings[0].found;
 }
 
+TEST(Census, TellsWhichLampsComeByThePixel) {
+  const Room room([](Gltf& g) {
+    g.use("KHR_lights_punctual");
+    test::json& lights = g.doc["extensions"]["KHR_lights_punctual"]["lights"];
+    for (const float candela : {100.0f, 0.0f}) {
+      lights.push_back({{"type", "point"}, {"intensity", candela}});
+      g.doc["scenes"][0]["nodes"].push_back(g.doc["nodes"].size());
+      g.doc["nodes"].push_back({{"name", candela > 0 ? "bulb" : "dead"}, {"translation", {1.5, 1.5, -1.5}}});
+      g.doc["nodes"].back()["extensions"]["KHR_lights_punctual"]["light"] = lights.size() - 1;
+    }
+  });
+  Context context;
+  const auto plan = make_plan(room.options, false, context);
+  ASSERT_TRUE(plan) << plan.error().text();
+  const StageCensus& sharp = stage(plan->census, "sharp light");
+  EXPECT_TRUE(sharp.runs);
+  EXPECT_EQ(sharp.why, "light of 1 of 2 points, spots and suns by the pixel, on flat charts; dead in texels: dark");
+  EXPECT_EQ(sharp.amounts[0].second, 2u);
+}
+
 TEST(Census, WithoutReflectorsNoRayIsTracedForThem) {
   const Room matte, shiny(make_mirror);
   BakeOptions maps = shiny.options;

@@ -1,6 +1,8 @@
 // Light that is computed by pixel: it is what rays find, everywhere.
 #include <gtest/gtest.h>
 
+#include "bake/radiosity/sharp_records.h"
+#include "bake/trace/punctual.h"
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
@@ -140,6 +142,47 @@ TEST(SharpLight, OfASpotAndALowSunToo) {
       look_at(test::bake(cluttered({sun_along({0.8f, -0.3f, -0.4f}, 0)}), 0.15f, sharp_options()), 1, 0.01);
   EXPECT_GT(of_sun.dark, 100);
   EXPECT_EQ(of_sun.wrong, 0) << "of " << of_sun.points;
+}
+
+// Uneven angles; how horizontal ones go on is theirs.
+LightProfile measured(std::vector<float> horizontal_deg) {
+  LightProfile profile{"p", {0, 2.5f, 5, 10, 22.5f, 45, 60, 90}, std::move(horizontal_deg), {}};
+  for (std::size_t i = 0; i < profile.vertical_deg.size() * profile.horizontal_deg.size(); ++i)
+    profile.candela.push_back(100 + 40 * static_cast<float>(i * i % 7));
+  return profile;
+}
+
+Light profiled(const Vec3& place, bool mirrored) {
+  Light light = point_at(place);
+  light.type = LightType::kSpot, light.outer_cone_rad = 0.1f;  // which a profile replaces
+  light.direction = glm::normalize(Vec3(0.3f, -1, -0.2f));
+  light.right = glm::normalize(glm::cross(light.direction, Vec3(0.2f, 0.1f, 1)));
+  light.color = Vec3(0.5f, 1, 2), light.profile = 0, light.mirrored = mirrored;
+  return light;
+}
+
+TEST(SharpLight, OfAProfileIsWhatWasMeasured) {
+  for (const auto& horizontal : {std::vector<float>{0}, {0, 30, 90}, {0, 45, 180}, {90, 135, 270}, {0, 45, 120, 360}})
+    for (const bool mirrored : {false, true}) {
+      Scene scene;
+      scene.profiles = {measured(horizontal)}, scene.lights = {profiled(Vec3(0), mirrored)};
+      if (horizontal.back() == 360)
+        std::copy_n(scene.profiles[0].candela.begin(), 8, scene.profiles[0].candela.end() - 8);
+      SharpLight out;
+      add_lamps(scene, std::vector<std::uint32_t>{0}, out);
+      for (std::uint32_t k = 0; k < 500; ++k) {
+        const Vec3 way = square_to_sphere(Sampler(1, 0, k).next2());
+        const Vec3 found = out.lamps[0].intensity * candela_of(out.profiles[0], out.lamps[0], way),
+                   wanted = punctual_intensity(scene, scene.lights[0], way);
+        EXPECT_LT(max_component(glm::abs(found - wanted)), 0.1f) << horizontal.back() << ", " << k;
+      }
+    }
+  Scene scene = cluttered({profiled({0.3f, 2.4f, 0.8f}, false)});
+  scene.profiles = {measured({0, 30, 90})};
+  const LookedAt found = look_at(test::bake(std::move(scene), 0.15f, sharp_options()), 1, 0.01);
+  EXPECT_GT(found.dark, 100);
+  EXPECT_GT(found.lit, 1000);
+  EXPECT_LE(found.wrong, 1) << "of " << found.points << ": rays may miss a facet that they see edge-on";
 }
 
 TEST(SharpLight, PenumbraeOfASunAreThoseOfItsDisk) {
