@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kTile = 16;  // texels a side, that are looked at
 inline constexpr std::size_t kListed = 4,
                              kListedAtLast = 16;   // triangles for one lamp: with more, quarters have fewer each
 inline constexpr std::size_t kMostOfTexel = 1024;  // words: with more it is made again with fewer quarters
-inline constexpr int kFilterSplits = 3;            // where cut-outs or the rims of panes need rays: eighths of a texel
+inline constexpr int kFilterSplits = 3;            // from eighths of a texel on rays find edges of cut-outs and panes
 inline constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
 inline constexpr std::uint32_t kRaysOfEdge = 8;          // a side, that a screen's edge is fitted to
 inline constexpr double kWider = 1.25;    // squares and suns in which casters are sought: what rays just miss shows
@@ -225,16 +225,19 @@ class TileLister {
       if (few.even) return arrived(lamp.lamp, few.mean);
       edges = edges_of_filters = true;
     }
-    const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits);
+    const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits + 1);
     const auto is_list = [&](std::size_t most) {
       return splits > 0 && !edges_of_filters && shine.casters.size() <= most;
     };
     if (is_list(kListed) && list(square, filters, shine)) return {Light::kSettled, std::move(shine), {}};
     if (splits > 0 && !patterned)
       if (std::optional<Look> fit = fitted(square, beam, shine)) return std::move(*fit);
+    // Half a row of rays may be wrong: a bend needs no finer squares.
+    if (!last && edges_of_filters && splits > kFilterSplits)
+      if (std::optional<Look> parted = screened(square, lamp.lamp, kRaysOfEdge / 2)) return std::move(*parted);
     if (!last) return {Light::kOpen, {}, std::move(shine.casters)};
     if (is_list(kListedAtLast) && list(square, filters, shine)) return {Light::kSettled, std::move(shine), {}};
-    return patterned ? arrived(lamp.lamp, rays_to(square, lamp.lamp, kRays).mean) : screened(square, lamp.lamp);
+    return *screened(square, lamp.lamp, kRaysOfEdge * kRaysOfEdge);
   }
 
   // Whether light comes past what is opaque of it; panes that reach beyond the square become its tint.
@@ -282,9 +285,10 @@ class TileLister {
 
   // One triangle just over the square in place of too many: its shadow's edge is the straight line that parts what rays
   // find lit from what they find dark, and leaves as much of the square lit as they find. Where nothing parts them, a
-  // share.
-  Look screened(const Square& square, std::uint32_t lamp) {
+  // share; none where more rays than `most` would be wrong.
+  std::optional<Look> screened(const Square& square, std::uint32_t lamp, std::uint32_t most) {
     const Rays rays = rays_to(square, lamp, kRaysOfEdge);
+    const auto share = [&] { return most < rays.lit.size() ? std::nullopt : std::optional(arrived(lamp, rays.mean)); };
     std::vector<float> lit = rays.lit;
     for (std::size_t i = 0; i < lit.size(); ++i) {
       if (is_dim(rays, i)) return arrived(lamp, rays.mean);
@@ -296,19 +300,23 @@ class TileLister {
       of_lit += double{lit[k]} * ray_place(k, kRaysOfEdge), of_dark += (1 - double{lit[k]}) * ray_place(k, kRaysOfEdge),
           sum += double{lit[k]};
     const auto count = static_cast<double>(lit.size());
-    if (!(sum > 0.5)) return {};
+    if (!(sum > 0.5)) return Look{};
     if (sum > count - 0.5) return arrived(lamp, rays.mean);
     const DVec2 across = of_lit / sum - of_dark / (count - sum);
-    if (glm::length(across) < kParted) return arrived(lamp, rays.mean);
+    if (glm::length(across) < kParted) return share();
     const DVec2 towards = glm::normalize(across), along(-towards.y, towards.x);
     std::vector<double> at;
     for (std::uint32_t k = 0; k < lit.size(); ++k) at.push_back(glm::dot(towards, ray_place(k, kRaysOfEdge) - 0.5));
     std::ranges::sort(at);
     const auto dark = std::min(static_cast<std::size_t>(count - sum), at.size() - 1);
     const DVec2 edge = 0.5 + towards * (0.5 * (at[dark - (dark > 0)] + at[dark]));
+    std::uint32_t astray = 0;
+    for (std::uint32_t k = 0; k < lit.size(); ++k)
+      astray += (glm::dot(towards, ray_place(k, kRaysOfEdge) - edge) > 0) != (lit[k] > 0) ? 1 : 0;
+    if (astray > most) return std::nullopt;
     const BeamTriangle corners{over(square, edge - kScreen * along, lamp), over(square, edge + kScreen * along, lamp),
                                over(square, edge - 2 * kScreen * towards, lamp)};
-    return {Light::kSettled, {lamp, rays.mean * static_cast<float>(count / sum), {}, {}, {{corners, 1}}}, {}};
+    return Look{Light::kSettled, {lamp, rays.mean * static_cast<float>(count / sum), {}, {}, {{corners, 1}}}, {}};
   }
 
   // A place of a square, its sides being 1, on the way from there to the lamp, just over the chart.

@@ -251,6 +251,26 @@ TEST(SharpLight, PassesPanes) {
   EXPECT_EQ(found.wrong, 0) << "worst " << found.worst;
 }
 
+// A pane whose rim lies in its frame: the patch on the floor ends where the frame does.
+TEST(SharpLight, OfAPaneEndsAtItsFrame) {
+  for (const float radius : {0.0f, 0.00465f}) {
+    SceneParts parts;
+    const auto matt = parts.diffuse(Vec3(0.5f));
+    parts.quad("floor", matt, {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+    SceneMaterial glass;
+    glass.transmission = 1, glass.metallic = 0, glass.roughness = 0, glass.double_sided = true;
+    parts.quad("pane", parts.add(glass), {-0.42f, 1, 0.32f}, {0.84f, 0, 0}, {0, 0, -0.64f});
+    for (const float side : {-1.0f, 1.0f}) {
+      parts.box("frame", matt, {0.425f * side - 0.025f, 0.98f, -0.35f}, {0.425f * side + 0.025f, 1.02f, 0.35f});
+      parts.box("frame", matt, {-0.4f, 0.98f, 0.325f * side - 0.025f}, {0.4f, 1.02f, 0.325f * side + 0.025f});
+    }
+    parts.scene().lights = {sun_along({0.31f, -1, 0.17f}, radius)};
+    const LookedAt found = look_at(test::bake(parts.finish(), 0.05f, sharp_options()), radius > 0 ? 1024 : 1, 0.05);
+    EXPECT_GT(found.dark, 50);
+    EXPECT_EQ(found.wrong, 0) << "of " << found.points << ", worst " << found.worst << ", radius " << radius;
+  }
+}
+
 // A lattice of holes of 5 cm, whose sun is as coarse as an eighth of a texel.
 TEST(SharpLight, OfALatticeIsThatOfItsHoles) {
   SceneParts parts;
