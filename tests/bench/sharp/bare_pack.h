@@ -13,12 +13,13 @@ namespace oriel {
 
 // The pack's opaque parts alone, white, without light of texels.
 struct BarePack {
+  const Pack& full;
   Pack pack;
-  std::vector<std::int32_t> page;   // by triangle of the mesh
+  std::vector<std::int32_t> page;    // by triangle of the mesh
   std::vector<std::uint32_t> plane;  // likewise: numbers of planes that have a page in common
   Scene scene;
 
-  explicit BarePack(const Pack& full) {
+  explicit BarePack(const Pack& of) : full(of) {
     pack.mesh = full.mesh, pack.sharp_light = full.sharp_light, pack.lightmaps = full.lightmaps;
     pack.materials.resize(1);
     pack.materials[0].f0 = Vec3(0);
@@ -52,9 +53,11 @@ struct BarePack {
       const Vec3 n = geometric_normal(scene, t);
       const float off = glm::dot(n, scene.positions[scene.triangles[t].x]);
       const auto rounded = [](float v, float by) { return static_cast<int>(std::lround(v / by)); };
-      plane.push_back(planes.try_emplace({page[t], rounded(n.x, 0.01f), rounded(n.y, 0.01f), rounded(n.z, 0.01f),
-                                          rounded(off, 0.002f)},
-                                         static_cast<std::uint32_t>(planes.size())).first->second);
+      plane.push_back(planes
+                          .try_emplace({page[t], rounded(n.x, 0.01f), rounded(n.y, 0.01f), rounded(n.z, 0.01f),
+                                        rounded(off, 0.002f)},
+                                       static_cast<std::uint32_t>(planes.size()))
+                          .first->second);
     }
   }
 
@@ -62,6 +65,15 @@ struct BarePack {
     const UVec3& v = scene.triangles[t];
     const auto& uvs = pack.mesh.lightmap_uvs;
     return uvs[v.x] + in.x * (uvs[v.y] - uvs[v.x]) + in.y * (uvs[v.z] - uvs[v.x]);
+  }
+
+  // Whether a place of the full pack has at least half of that illuminance although no lamp is listed there.
+  bool has_in_texels(std::uint32_t t, const Vec2& at, float lux) const {
+    const LightmapPage& p = full.lightmaps[static_cast<std::size_t>(page[t])];
+    const UVec2 texel =
+        glm::min(UVec2(glm::clamp(at, Vec2(0), Vec2(1)) * Vec2(p.width, p.height)), UVec2(p.width, p.height) - 1u);
+    const std::size_t i = std::size_t{texel.y} * p.width + texel.x;
+    return (p.sharp_at.empty() || p.sharp_at[i] == 0) && max_component(p.irradiance[i]) > 0.5f * lux;
   }
 
   bool lists(std::uint32_t record, std::uint32_t lamp) const {

@@ -54,8 +54,14 @@ class EdgeBench {
  public:
   EdgeBench(const Settings& settings, const BarePack& bare, const Accel& shown, const Accel& casters,
             const gpu::Device& device, Renderer& renderer)
-      : settings_(settings), bare_(bare), shown_(shown), casters_(casters), device_(device), renderer_(renderer),
-        width_(static_cast<int>(settings.size[0])), height_(static_cast<int>(settings.size[1])) {
+      : settings_(settings),
+        bare_(bare),
+        shown_(shown),
+        casters_(casters),
+        device_(device),
+        renderer_(renderer),
+        width_(static_cast<int>(settings.size[0])),
+        height_(static_cast<int>(settings.size[1])) {
     for (std::uint32_t k = 0; k < bare.pack.sharp_light.lamps.size(); ++k) planes_.push_back(bare.planes_of(k));
   }
 
@@ -105,8 +111,8 @@ class EdgeBench {
     ray.origin = offset_origin(p, n, max_component(glm::abs(bare_.scene.upper - bare_.scene.lower)));
     ray.past_frosted = false;
     if (lamp.sun) {
-      ray.direction = lamp.angular_radius_rad > 0 ? sample_cone(-lamp.direction, lamp.angular_radius_rad, disk)
-                                                  : -lamp.direction;
+      ray.direction =
+          lamp.angular_radius_rad > 0 ? sample_cone(-lamp.direction, lamp.angular_radius_rad, disk) : -lamp.direction;
     } else {
       const Vec3 to = lamp.position - ray.origin;
       ray.max_distance = glm::length(to), ray.direction = to / ray.max_distance;
@@ -131,7 +137,7 @@ class EdgeBench {
   int width_, height_;
   std::vector<std::set<std::uint32_t>> planes_;  // by lamp
   std::vector<Pixel> pixels_;
-  std::size_t number_ = 0;  // of the next picture
+  std::size_t number_ = 0;                                     // of the next picture
   std::map<std::uint32_t, std::unique_ptr<GpuScene>> scenes_;  // by lamp
 };
 
@@ -141,7 +147,8 @@ void EdgeBench::ask_many(const Eye& eye, int x, int y) {
   for (std::uint32_t k = 0; k < kRaysOfPixel; ++k) {
     Sampler random(2, static_cast<std::uint64_t>(y * width_ + x), k);
     const Vec2 within = Vec2(x, y) + random.next2();
-    const PixelRay ray = pixel_ray(eye.camera, within.x, within.y, static_cast<float>(width_), static_cast<float>(height_));
+    const PixelRay ray =
+        pixel_ray(eye.camera, within.x, within.y, static_cast<float>(width_), static_cast<float>(height_));
     const float along = glm::dot(pixel.normal, pixel.position - ray.origin) / glm::dot(pixel.normal, ray.direction);
     pixel.right += visible(ray.origin + along * ray.direction, pixel.normal, eye.lamp, random.next2()) / kRaysOfPixel;
   }
@@ -149,7 +156,8 @@ void EdgeBench::ask_many(const Eye& eye, int x, int y) {
 
 std::optional<Vec2> EdgeBench::crossing(int x, int y, bool down, float Pixel::*value, float least, bool& rises) {
   const Pixel &a = at(x, y), &b = at(x + !down, y + down);
-  if (!same(a, b) || (a.*value < kLit) == (b.*value < kLit) || std::abs(a.*value - b.*value) < least) return std::nullopt;
+  if (!same(a, b) || (a.*value < kLit) == (b.*value < kLit) || std::abs(a.*value - b.*value) < least)
+    return std::nullopt;
   rises = b.*value > a.*value;
   const float share = (kLit - a.*value) / (b.*value - a.*value);
   return Vec2(x, y) + (down ? Vec2(0, share) : Vec2(share, 0));
@@ -162,7 +170,8 @@ Status EdgeBench::look(const Eye& eye, LampSum& sum) {
   if (!scene) {
     alone = bare_.pack;
     for (std::uint32_t k = 0; k < alone.sharp_light.lamps.size(); ++k)
-      alone.sharp_light.lamps[k].intensity = Vec3(k == eye.lamp ? kPower : 0), alone.sharp_light.lamps[k].light_group = ~0u;
+      alone.sharp_light.lamps[k].intensity = Vec3(k == eye.lamp ? kPower : 0),
+      alone.sharp_light.lamps[k].light_group = ~0u;
     ORIEL_TRY(scene, GpuScene::create(alone, device_));
   }
   ORIEL_TRY_VOID(renderer_.render(*scene, make_view(eye.camera, width_, height_, scene->bounds()), {}));
@@ -188,9 +197,11 @@ Status EdgeBench::look(const Eye& eye, LampSum& sum) {
                   geometric_normal(bare_.scene, hit.triangle)};
       const float lux = sharp_irradiance(open, open_page, {Vec2(0.5f), pixel.position, pixel.normal}).r;
       if (!(lux > 1e-3f * kPower) && !(open.lamps[0].sun && lux > 0.02f * kPower) && !(lux > 1)) continue;
-      pixel.right = visible(pixel.position, pixel.normal, eye.lamp,
-                            Sampler(3, row, static_cast<std::uint32_t>(x)).next2());
-      if (!planes_[eye.lamp].contains(bare_.plane[hit.triangle])) {
+      pixel.right =
+          visible(pixel.position, pixel.normal, eye.lamp, Sampler(3, row, static_cast<std::uint32_t>(x)).next2());
+      const float own = lux / kPower * max_component(bare_.pack.sharp_light.lamps[eye.lamp].intensity);
+      if (!planes_[eye.lamp].contains(bare_.plane[hit.triangle]) ||
+          (pixel.right > kLit && bare_.has_in_texels(hit.triangle, bare_.uv(hit.triangle, hit.barycentric), own))) {
         texels[row] += pixel.right > kLit;
         continue;
       }
@@ -242,7 +253,9 @@ Status EdgeBench::look(const Eye& eye, LampSum& sum) {
       for (int i = -kFar; i <= kFar; ++i)
         for (const int down : {0, 1}) {
           const auto found = edges.find({x + i, y + j, down});
-          if (found == edges.end() || (like && ((*like)[0] == static_cast<bool>(down)) && found->second.rises != (*like)[1])) continue;
+          if (found == edges.end() ||
+              (like && ((*like)[0] == static_cast<bool>(down)) && found->second.rises != (*like)[1]))
+            continue;
           best = std::min(best, glm::distance(from, found->second.at));
         }
     return best;
@@ -250,7 +263,7 @@ Status EdgeBench::look(const Eye& eye, LampSum& sum) {
   const auto right = edges_of(&Pixel::right, 0), shown = edges_of(&Pixel::shown, 0);
   for (const auto& [key, edge] : right) {
     const Pixel &a = at(key[0], key[1]), &b = at(key[0] + !key[2], key[1] + key[2]);
-    if (std::abs(a.right - b.right) >= kSharp)
+    if (a.asked && b.asked && std::abs(a.right - b.right) >= kSharp)
       sum.off.push_back(nearest(shown, edge.at, key[0], key[1], std::array{key[2] != 0, edge.rises}));
   }
   std::size_t wrong = 0;
@@ -263,14 +276,15 @@ Status EdgeBench::look(const Eye& eye, LampSum& sum) {
       if ((p.shown > kLit) == (p.right > kLit) || std::abs(p.shown - p.right) < kSharp) continue;
       bool whole = true;  // at outlines the frame's pixels show more than one surface
       for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i) whole = whole && x > 0 && y > 0 && x + 1 < width_ && y + 1 < height_ && same(p, at(x + i, y + j));
+        for (int i = -1; i <= 1; ++i)
+          whole = whole && x > 0 && y > 0 && x + 1 < width_ && y + 1 < height_ && same(p, at(x + i, y + j));
       if (!whole || nearest(right, Vec2(x, y), x, y, std::nullopt) <= kOff) continue;
       ++(p.shown > kLit ? sum.lit_in_shadow : sum.dark_in_light), ++wrong, where = Vec2(x, y);
     }
   if (wrong > sum.worst_count) {
     sum.worst_count = wrong;
-    sum.worst = fmt::format("{} from ({:.3f} {:.3f} {:.3f}) along ({:.3f} {:.3f} {:.3f}): {}, the last at {} {}", eye.camera.name,
-                            eye.camera.eye.x, eye.camera.eye.y, eye.camera.eye.z, eye.camera.forward.x,
+    sum.worst = fmt::format("{} from ({:.3f} {:.3f} {:.3f}) along ({:.3f} {:.3f} {:.3f}): {}, the last at {} {}",
+                            eye.camera.name, eye.camera.eye.x, eye.camera.eye.y, eye.camera.eye.z, eye.camera.forward.x,
                             eye.camera.forward.y, eye.camera.forward.z, wrong, where.x, where.y);
   }
   if (!settings_.picture.empty()) {
@@ -314,17 +328,20 @@ Status run(const Settings& settings) {
   EdgeBench bench(settings, bare, shown, casters, device, *renderer);
   std::map<std::uint32_t, LampSum> sums;
   for (const Eye& eye : bench.eyes(full.cameras)) ORIEL_TRY_VOID(bench.look(eye, sums[eye.lamp]));
-  std::printf("| lamp | eyes | edges, pixels of them | median, px | within 1.5 px | lit in shadow | dark in light | penumbrae, rms | lit by pixel | worst |\n");
+  std::printf(
+      "| lamp | eyes | edges, pixels of them | median, px | within 1.5 px | lit in shadow | dark in light | penumbrae, "
+      "rms | lit by pixel | worst |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
   for (auto& [lamp, sum] : sums) {
     std::ranges::sort(sum.off);
     const std::size_t n = std::max<std::size_t>(sum.off.size(), 1);
     sum.off.resize(n);
     const auto close = std::ranges::upper_bound(sum.off, kOff) - sum.off.begin();
-    std::printf("| %u | %zu | %zu | %.2f | %.2f %% | %zu | %zu | %.3f | %.1f %% | %s |\n", lamp, sum.eyes, n, double{sum.off[n / 2]},
-                100.0 * static_cast<double>(close) / static_cast<double>(n), sum.lit_in_shadow, sum.dark_in_light,
-                std::sqrt(sum.squares / static_cast<double>(std::max<std::size_t>(sum.soft, 1))),
-                100.0 * static_cast<double>(sum.lit_by_pixel) / static_cast<double>(std::max<std::size_t>(sum.lit_by_pixel + sum.lit_in_texels, 1)),
+    std::printf("| %u | %zu | %zu | %.2f | %.2f %% | %zu | %zu | %.3f | %.1f %% | %s |\n", lamp, sum.eyes, n,
+                double{sum.off[n / 2]}, 100.0 * static_cast<double>(close) / static_cast<double>(n), sum.lit_in_shadow,
+                sum.dark_in_light, std::sqrt(sum.squares / static_cast<double>(std::max<std::size_t>(sum.soft, 1))),
+                100.0 * static_cast<double>(sum.lit_by_pixel) /
+                    static_cast<double>(std::max<std::size_t>(sum.lit_by_pixel + sum.lit_in_texels, 1)),
                 sum.worst.c_str());
   }
   return {};
@@ -336,14 +353,14 @@ Status run(const Settings& settings) {
 int main(int argc, char** argv) {
   using namespace oriel;
   Settings settings;
-  if (const auto code = parse_options(
-          argc, argv, "Edges of shadows by pixel beside rays",
-          {{"SCENE", "Arguments", "That was baked", text(settings.scene, "SCENE"), Use::kRequired},
-           {"PACK", "Arguments", "A bake of it", text(settings.pack, "PACK"), Use::kRequired},
-           {"--eyes", "Options", "How many", number(settings.eyes, 1, 1e6)},
-           {"--size", "Options", "Pixels of a frame: W,H", numbers(settings.size, 1, 1e5)},
-           {"--pictures", "Options", "Writes NAME0.ppm and so on: shown, right, and their difference",
-            text(settings.picture, "NAME")}}))
+  if (const auto code =
+          parse_options(argc, argv, "Edges of shadows by pixel beside rays",
+                        {{"SCENE", "Arguments", "That was baked", text(settings.scene, "SCENE"), Use::kRequired},
+                         {"PACK", "Arguments", "A bake of it", text(settings.pack, "PACK"), Use::kRequired},
+                         {"--eyes", "Options", "How many", number(settings.eyes, 1, 1e6)},
+                         {"--size", "Options", "Pixels of a frame: W,H", numbers(settings.size, 1, 1e5)},
+                         {"--pictures", "Options", "Writes NAME0.ppm and so on: shown, right, and their difference",
+                          text(settings.picture, "NAME")}}))
     return *code;
   const Status done = run(settings);
   if (!done) std::fprintf(stderr, "%s\n", done.error().text().c_str());
