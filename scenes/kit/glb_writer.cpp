@@ -1,6 +1,7 @@
 #include "scenes/kit/glb_writer.h"
 
 #include <algorithm>
+#include <glm/gtc/quaternion.hpp>
 
 #include "formats/core/glb.h"
 
@@ -109,18 +110,8 @@ Vec4 camera_rotation(const Vec3& forward) {
   const bool vertical = std::abs(back.y) > 0.9999;
   const DVec3 right = glm::normalize(glm::cross(vertical ? DVec3(0, 0, -1) : DVec3(0, 1, 0), back));
   const DVec3 up = glm::cross(back, right);
-  const std::array<double, 3> d{right.x, up.y, back.z};
-  DVec4 q;  // Shepperd 1978, the branch whose divisor is the largest
-  if (d[0] + d[1] + d[2] >= std::max({d[0], d[1], d[2]})) {
-    q = DVec4(up.z - back.y, back.x - right.z, right.y - up.x, 1 + d[0] + d[1] + d[2]);
-  } else if (d[0] >= std::max(d[1], d[2])) {
-    q = DVec4(1 + d[0] - d[1] - d[2], right.y + up.x, back.x + right.z, up.z - back.y);
-  } else if (d[1] >= d[2]) {
-    q = DVec4(right.y + up.x, 1 - d[0] + d[1] - d[2], up.z + back.y, back.x - right.z);
-  } else {
-    q = DVec4(back.x + right.z, up.z + back.y, 1 - d[0] - d[1] + d[2], right.y - up.x);
-  }
-  return Vec4(q / glm::length(q));
+  const auto q = glm::quat_cast(glm::dmat3(right, up, back));
+  return Vec4(q.x, q.y, q.z, q.w);
 }
 
 Json to_json(const Vec4& q) {
