@@ -1,4 +1,5 @@
-// What `info` tells of reflectors, their maps and what these were planned for.
+// What `oriel-inspect info` tells of lightmaps, of the light beside them that is computed by pixel, of reflectors and
+// their maps, and of what these were planned for.
 #pragma once
 
 #include "formats/core/json.h"
@@ -8,6 +9,9 @@
 namespace oriel::inspect {
 
 Json triple(const Vec3& v);
+
+void add_lightmaps(const PackIndex& index, const Pack& pack, Json& out);
+void print_lightmaps(const PackIndex& index, const Pack& pack);
 
 void add_reflections(const PackIndex& index, const Pack& pack, Json& out);
 void print_reflections(const PackIndex& index, const Pack& pack);
