@@ -4,7 +4,6 @@
 #include "player/gpu/framebuffer.h"
 #include "player/movers/mover_pass.h"
 #include "player/movers/shade_scene.h"
-#include "player/movers/shade_shape.h"
 
 namespace oriel {
 
