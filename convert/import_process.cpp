@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -14,6 +13,7 @@
 #include <cstring>
 
 #include "formats/core/file.h"
+#include "formats/core/process.h"
 
 namespace oriel {
 namespace {
@@ -60,8 +60,9 @@ class Child {
   std::string name() const { return file_.filename().string(); }
 
   Status start() {
-    std::error_code ec;
-    if (program_.empty()) program_ = fs::read_symlink("/proc/self/exe", ec).parent_path() / "oriel-import";
+    if (program_.empty()) {
+      ORIEL_TRY(program_, program_beside("oriel-import"));
+    }
     if (::access(program_.c_str(), X_OK) != 0)
       return fail(ErrorCode::kRuntime, name(),
                   "this is {}, which oriel-import reads, expected beside this program as {}: install oriel-tools whole "
@@ -81,19 +82,8 @@ class Child {
                                       "--time",
                                       fmt::format("{:.0f}s", std::max(1.0, process_.time_s))};
     if (process_.up) words.insert(words.end(), {"--up", std::string(1, process_.up)});
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    ::posix_spawn_file_actions_adddup2(&actions, out_.fd, 1);
-    ::posix_spawn_file_actions_adddup2(&actions, writes.fd, 2);
-    const int error = ::posix_spawn(&pid_, program_.c_str(), &actions, nullptr, arguments.data(), environ);
-    ::posix_spawn_file_actions_destroy(&actions);
-    if (error == 0) return {};
-    pid_ = -1;
-    return fail(ErrorCode::kRuntime, program_.string(), "cannot be started: {}", std::strerror(error));
+    ORIEL_TRY(pid_, start_program(std::move(words), {.out = out_.fd, .err = writes.fd}));
+    return {};
   }
 
   // What it says, until it says no more.
@@ -121,13 +111,7 @@ class Child {
     return {};
   }
 
-  int wait() {
-    int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-    }
-    pid_ = -1;
-    return status;
-  }
+  int wait() { return wait_for(std::exchange(pid_, -1)); }
 
   void end() {
     ::kill(pid_, SIGKILL);

@@ -1,10 +1,7 @@
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <memory>
 
 #include "bake/cli/commands.h"
+#include "formats/core/process.h"
 
 namespace oriel {
 namespace {
@@ -15,15 +12,9 @@ constexpr const char* kPreviewFooter =
 }  // namespace
 
 Status start_preview(std::vector<std::string> words) {
-  std::error_code ec;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", ec);
-  if (ec) return fail(ErrorCode::kRuntime, "/proc/self/exe", "cannot be read: {}", ec.message());
-  words.insert(words.begin(), (self.parent_path() / "oriel-preview").string());
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  ::execv(arguments.front(), arguments.data());
-  return fail(ErrorCode::kRuntime, words.front(), "cannot be started: {}", std::strerror(errno));
+  ORIEL_TRY(const std::filesystem::path preview, program_beside("oriel-preview"));
+  words.insert(words.begin(), preview.string());
+  return become_program(std::move(words));
 }
 
 ToolCommand preview_command(BakeSession&) {

@@ -2,7 +2,7 @@
 
 #include "bake/cli/commands.h"
 #include "bake/run/option_table.h"
-#include "formats/core/file.h"
+#include "formats/core/process.h"
 
 namespace oriel {
 namespace {
@@ -52,9 +52,7 @@ std::string slurm_script(const SubmitArguments& args, const std::string& program
 }
 
 Status run_submit(const SubmitArguments& args) {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) return fail(ErrorCode::kRuntime, "/proc/self/exe", "cannot be read: {}", error.message());
+  ORIEL_TRY(const std::filesystem::path program, program_beside("oriel-bake"));
   const std::string script = slurm_script(args, program.string());
   if (args.dry_run) return print(script);
   if (std::system(script.c_str()) != 0)

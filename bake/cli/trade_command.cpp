@@ -2,6 +2,7 @@
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
 #include "formats/core/file.h"
+#include "formats/core/process.h"
 #include "trade/html.h"
 #include "trade/sweep.h"
 #include "trade/table.h"
@@ -80,9 +81,7 @@ ToolCommand trade_command(BakeSession& session) {
     trade::TradeOptions& o = args->options;
     o.seed = session.seed;
     o.forwarded = given.words(forwarded);
-    std::error_code error;
-    o.programs = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-    if (error) return fail(ErrorCode::kRuntime, "/proc/self/exe", "cannot be read: {}", error.message());
+    ORIEL_TRY(o.programs, program_beside(""));
     return {};
   };
   out.run = [args, &session] { return run_trade(args->options, session); };

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +12,8 @@
 #include <sstream>
 #include <utility>
 #include <vector>
+
+#include "formats/core/process.h"
 
 namespace oriel {
 namespace {
@@ -68,20 +69,11 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const fs::path& path, i
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     return fail(ErrorCode::kRuntime, "ffmpeg", "no pipe to it: {}", std::strerror(errno));
   out->pipe_ = ends[1];
-  std::vector<std::string> words = command(out->partial_, width, height, frames_per_s);
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-  const int error = ::posix_spawnp(&out->process_, "ffmpeg", &actions, nullptr, argv.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
+  const Result<pid_t> started =
+      start_program(command(out->partial_, width, height, frames_per_s), {ends[0], STDOUT_FILENO, STDERR_FILENO});
   ::close(ends[0]);
-  if (error != 0) {
-    out->process_ = -1;
-    return fail(ErrorCode::kRuntime, "ffmpeg", "does not start: {}", std::strerror(error));
-  }
+  if (!started) return tl::unexpected(started.error());
+  out->process_ = *started;
   ::signal(SIGPIPE, SIG_IGN);  // write() tells when it has ended
   return out;
 }
@@ -106,10 +98,7 @@ Status VideoWriter::add(const ByteImage& frame) {
 Status VideoWriter::wait() {
   if (pipe_ >= 0) ::close(std::exchange(pipe_, -1));
   if (process_ < 0) return {};
-  int status = 0;
-  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-  }
-  process_ = -1;
+  const int status = wait_for(std::exchange(process_, -1));
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   return fail(ErrorCode::kRuntime, "ffmpeg", "failed to make {}", path_.string());
 }

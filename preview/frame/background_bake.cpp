@@ -1,7 +1,6 @@
 #include "preview/frame/background_bake.h"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 #include <cstring>
 
 #include "formats/core/json.h"
+#include "formats/core/process.h"
 
 namespace oriel {
 
@@ -25,29 +25,21 @@ Status BackgroundBake::start(std::vector<std::string> words) {
   if (::pipe2(ends, O_CLOEXEC) != 0)
     return fail(ErrorCode::kRuntime, words.front(), "cannot be listened to: {}", std::strerror(errno));
   ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  const int error = ::posix_spawn(&child_, arguments.front(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  const Result<pid_t> started = start_program(std::move(words), {.err = ends[1]});
   ::close(ends[1]);
   pipe_ = ends[0];
-  if (error == 0) return {};
-  child_ = -1;
-  ::close(std::exchange(pipe_, -1));
-  return fail(ErrorCode::kRuntime, words.front(), "cannot be started: {}", std::strerror(error));
+  if (!started) {
+    stop();
+    return tl::unexpected(started.error());
+  }
+  child_ = *started;
+  return {};
 }
 
 void BackgroundBake::stop() {
   if (child_ > 0) {
     ::kill(child_, SIGTERM);
-    ::waitpid(child_, nullptr, 0);
-    child_ = -1;
+    wait_for(std::exchange(child_, -1));
   }
   if (pipe_ >= 0) ::close(std::exchange(pipe_, -1));
 }
