@@ -4,16 +4,15 @@
 #include <vector>
 
 #include "bake/atlas/lscm.h"
+#include "formats/core/rectangle.h"
 
 namespace oriel {
 namespace {
 
-constexpr double kIsometry = 1.005;     // L2 stretch of a projection beyond which a conformal map is better
-constexpr double kFlatScale = 1e-4;     // a projection so near to scale is of something flat, and stays exact
-constexpr double kLeastCos = 0.2;       // of a projected triangle's normal to the direction of projection
-constexpr double kFlatRatio = 1e-9;     // twice the area over the longest side squared: a line, whatever its sign
-constexpr double kUprightSlack = 1.02;  // an upright box may be so much larger than the smallest
-constexpr std::size_t kMaxSides = 64;   // of the hull, the longest, are tried as a side of the box
+constexpr double kIsometry = 1.005;  // L2 stretch of a projection beyond which a conformal map is better
+constexpr double kFlatScale = 1e-4;  // a projection so near to scale is of something flat, and stays exact
+constexpr double kLeastCos = 0.2;    // of a projected triangle's normal to the direction of projection
+constexpr double kFlatRatio = 1e-9;  // twice the area over the longest side squared: a line, whatever its sign
 
 // Axes in the plane: x horizontal, y up the slope; for a floor x along the world's x.
 std::array<DVec3, 2> plane_axes(const DVec3& normal) {
@@ -27,53 +26,17 @@ DVec2 rotated(const DVec2& p, const DVec2& d) {
   return {glm::dot(p, d), cross2(d, p)};
 }
 
-struct Box {
-  DVec2 lower{0}, size{0};
-  double cost() const { return size.x * size.y; }
-};
-
-Box box_along(std::span<const DVec2> hull, const DVec2& direction) {
-  DVec2 lower = rotated(hull[0], direction), upper = lower;
-  for (const DVec2& p : hull) {
-    const DVec2 q = rotated(p, direction);
-    lower = glm::min(lower, q), upper = glm::max(upper, q);
-  }
-  return {lower, upper - lower};
-}
-
-// The direction of the box's x axis: one side of the smallest box lies along the hull (Freeman and Shapira 1975).
-DVec2 best_direction(std::span<const DVec2> hull) {
-  std::vector<DVec2> sides;
-  for (std::size_t i = 0; i < hull.size(); ++i) sides.push_back(hull[(i + 1) % hull.size()] - hull[i]);
-  std::stable_sort(sides.begin(), sides.end(),
-                   [](const DVec2& a, const DVec2& b) { return glm::dot(a, a) > glm::dot(b, b); });
-  sides.resize(std::min(sides.size(), kMaxSides));
-  DVec2 best(1, 0);
-  double best_cost = box_along(hull, best).cost() / kUprightSlack;
-  for (const DVec2& side : sides) {
-    const double length = glm::length(side);
-    if (!(length > 0)) continue;
-    const double cost = box_along(hull, side / length).cost();
-    if (cost < best_cost * (1 - 1e-5)) best = side / length, best_cost = cost;
-  }
-  return best;
-}
-
-// Turns points upright or as their smallest box lies, its lowest corner to (0, 0); its size.
+// Turns points as their smallest box lies, or upright where that is hardly larger; its lowest corner to (0, 0); its
+// size.
 DVec2 turn_into_box(std::span<Triangle2> points) {
   std::vector<DVec2> all;
   all.reserve(3 * points.size());
   for (const Triangle2& t : points) all.insert(all.end(), t.begin(), t.end());
-  const std::vector<DVec2> hull = convex_hull(std::move(all));
-  DVec2 direction = best_direction(hull);
-  Box box = box_along(hull, direction);
-  if (box.size.y > box.size.x) {
-    direction = {-direction.y, direction.x};
-    box = box_along(hull, direction);
-  }
+  const Rectangle box = tight_rectangle(all, DVec2(1, 0));
+  const DVec2 size = box.upper - box.lower;
   for (Triangle2& t : points)
-    for (DVec2& p : t) p = glm::clamp(rotated(p, direction) - box.lower, DVec2(0), box.size);
-  return box.size;
+    for (DVec2& p : t) p = glm::clamp(rotated(p, box.axis) - box.lower, DVec2(0), size);
+  return size;
 }
 
 std::vector<Triangle2> project(std::span<const Triangle3> corners, const DVec3& normal) {
@@ -139,14 +102,15 @@ bool faces_forward(std::span<const Triangle3> corners, const DVec3& axis) {
   return true;
 }
 
-}  // namespace
-
+// The unit normal of all triangles together; +Y where they cancel.
 DVec3 mean_normal(std::span<const Triangle3> corners) {
   DVec3 sum(0);
   for (const Triangle3& t : corners) sum += glm::cross(t[1] - t[0], t[2] - t[0]);
   const double length = glm::length(sum);
   return length > 0 ? sum / length : DVec3(0, 1, 0);
 }
+
+}  // namespace
 
 std::optional<FlatChart> flatten(const Patch& patch, std::span<const Triangle3> corners, const FlattenLimits& limits) {
   const DVec3 axis = mean_normal(corners);

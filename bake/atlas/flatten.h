@@ -31,7 +31,4 @@ struct FlatChart {
 // patch.
 std::optional<FlatChart> flatten(const Patch& patch, std::span<const Triangle3> corners, const FlattenLimits& limits);
 
-// The unit normal of all triangles together; +Y where they cancel.
-DVec3 mean_normal(std::span<const Triangle3> corners);
-
 }  // namespace oriel

@@ -11,10 +11,9 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kManyCharts = 20000;           // beyond which one width is tried, not several
-constexpr double kSizeSteps = 6;                     // classes of size an octave
-constexpr double kFull = 0.95, kLargeCharts = 1000;  // a ragged chart covers less of its box; a large one, of a page
-constexpr std::uint32_t kFillSteps = 4;              // classes of a mask's share of its box
+constexpr std::size_t kManyCharts = 20000;  // beyond which one width is tried, not several
+constexpr double kSizeSteps = 6;            // classes of size an octave
+constexpr std::uint32_t kFillSteps = 4;     // classes of a mask's share of its box
 
 struct Span {
   std::uint32_t row, first, length;
@@ -23,7 +22,7 @@ struct Span {
 // A mask as runs of texels, the longest first: these refuse a place soonest.
 struct Shape {
   std::uint32_t width = 0, height = 0, turns = 0, cursor = 0;  // cursor: index of its class
-  double centre = 0, texels = 0;                               // mean row of its texels; their number
+  double centre = 0;                                           // mean row of its texels
   std::vector<Span> spans;
 };
 
@@ -33,7 +32,7 @@ std::uint32_t size_class(std::uint32_t n) {
 constexpr std::uint32_t kSizeClasses = 15 * static_cast<std::uint32_t>(kSizeSteps);  // sides up to 2^15
 
 Shape make_shape(const TexelMask& mask, std::uint32_t turns, double fill) {
-  Shape shape{mask.width(), mask.height(), turns, 0, 0, 0, {}};
+  Shape shape{mask.width(), mask.height(), turns, 0, 0, {}};
   for (std::uint32_t y = 0; y < mask.height(); ++y) {
     for (std::uint32_t x = 0; x < mask.width();) {
       if (!mask.at(x, y)) {
@@ -45,11 +44,8 @@ Shape make_shape(const TexelMask& mask, std::uint32_t turns, double fill) {
       shape.spans.push_back({y, first, x - first});
     }
   }
-  for (const Span& span : shape.spans) {
-    shape.centre += static_cast<double>(span.row) * span.length;
-    shape.texels += span.length;
-  }
-  shape.centre /= shape.texels;
+  for (const Span& span : shape.spans) shape.centre += static_cast<double>(span.row) * span.length;
+  shape.centre /= static_cast<double>(mask.count());
   std::stable_sort(shape.spans.begin(), shape.spans.end(),
                    [](const Span& a, const Span& b) { return a.length > b.length; });
   const auto fill_class = std::min(kFillSteps - 1, static_cast<std::uint32_t>(fill * kFillSteps));
@@ -107,11 +103,7 @@ class Page {
       if (better <= 0) continue;
       std::uint32_t end = height_ - shape.height + 1;
       if (better < end) end = static_cast<std::uint32_t>(better);
-      // A large ragged chart has hollows to look for that others of its size had no use for.
-      std::uint32_t from_below = 0;
-      const bool ragged = shape.texels < kFull * shape.width * shape.height &&
-                          shape.texels * kLargeCharts > static_cast<double>(width_) * height_;
-      std::uint32_t& row = ragged ? from_below : cursors_[shape.cursor];
+      std::uint32_t& row = cursors_[shape.cursor];
       std::uint32_t x = kNone;
       for (; row < end && x == kNone; ++row) x = place_in_row(shape, row);
       if (x == kNone) continue;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "bake/radiance/rectangle.h"
 #include "bake/radiance/reproject.h"
+#include "formats/core/rectangle.h"
 
 namespace oriel {
 namespace {

@@ -4,10 +4,10 @@
 #include <iterator>
 #include <map>
 
-#include "bake/radiance/rectangle.h"
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
 #include "formats/core/check.h"
+#include "formats/core/rectangle.h"
 
 namespace oriel {
 namespace {

@@ -74,7 +74,7 @@ struct FoundReflectors {
 
 // Coplanar triangles of one material in parts of one name make a reflector, connected or not. Its frame: origin in the
 // middle of its bounds, z the normal (area-weighted mean), x, y the tightest rectangle's axes, or those aligned with
-// the world where that costs no more than 1 % of area; x along the longer side. A double-sided surface reflects on each
+// the world where that costs no more than 2 % of area; x along the longer side. A double-sided surface reflects on each
 // side from which it can be seen. The order depends on the scene only. materials: one entry for each of the scene's.
 FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMaterial> materials,
                                 const ReflectorOptions& options = {});

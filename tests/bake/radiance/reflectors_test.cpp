@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "bake/radiance/patches.h"
-#include "bake/radiance/rectangle.h"
 #include "bake/radiance/reproject.h"
+#include "formats/core/rectangle.h"
 #include "tests/bake/radiance/mirror_room.h"
 
 namespace oriel {

@@ -1,11 +1,14 @@
-#include "bake/radiance/rectangle.h"
+#include "formats/core/rectangle.h"
+
+#include <algorithm>
 
 #include "formats/core/convex_hull.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::size_t kMaxEdges = 256;  // of a hull that are tried: a finer one is round, and any side will do
+constexpr double kPreferredSlack = 1.02;  // the preferred rectangle may be so much larger than the smallest
+constexpr std::size_t kMaxSides = 64;     // of the hull, the longest, are tried: a finer one is round, and any will do
 
 // Keeps the part of a polygon where sign * coordinate <= sign * limit.
 std::vector<DVec2> clip(const std::vector<DVec2>& polygon, int axis, double sign, double limit) {
@@ -36,18 +39,20 @@ Rectangle bounds_along(std::span<const DVec2> points, const DVec2& axis) {
 
 Rectangle tight_rectangle(std::span<const DVec2> points, const DVec2& preferred) {
   const std::vector<DVec2> hull = convex_hull({points.begin(), points.end()});
-  const Rectangle aligned = bounds_along(hull, preferred);
-  Rectangle best = aligned;
-  const std::size_t step = hull.size() / kMaxEdges + 1;
-  for (std::size_t i = 0; i < hull.size(); i += step) {
-    const DVec2 edge = hull[(i + 1) % hull.size()] - hull[i];
-    const double length = glm::length(edge);
+  std::vector<DVec2> sides;
+  for (std::size_t i = 0; i < hull.size(); ++i) sides.push_back(hull[(i + 1) % hull.size()] - hull[i]);
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const DVec2& a, const DVec2& b) { return glm::dot(a, a) > glm::dot(b, b); });
+  sides.resize(std::min(sides.size(), kMaxSides));
+  Rectangle best = bounds_along(hull, preferred);
+  double least = best.area() / kPreferredSlack;
+  for (const DVec2& side : sides) {
+    const double length = glm::length(side);
     if (!(length > 0)) continue;
-    const Rectangle r = bounds_along(hull, edge / length);
-    if (r.area() < best.area() * (1 - 1e-9)) best = r;
+    const Rectangle r = bounds_along(hull, side / length);
+    if (r.area() < least * (1 - 1e-5)) best = r, least = r.area();
   }
-  if (aligned.area() <= 1.01 * best.area()) best = aligned;
-  if (best.upper.y - best.lower.y > (best.upper.x - best.lower.x) * (1 + 1e-6))
+  if (best.upper.y - best.lower.y > best.upper.x - best.lower.x)
     best = bounds_along(hull, DVec2(-best.axis.y, best.axis.x));
   return best;
 }

@@ -17,8 +17,8 @@ struct Rectangle {
 // Bounds of the points along `axis` (unit).
 Rectangle bounds_along(std::span<const DVec2> points, const DVec2& axis);
 
-// The tightest rectangle (a side lies on an edge of the convex hull), or the one along `preferred` where that is no
-// more than 1 % larger. Never empty for one point or more.
+// The tightest rectangle, a side of which lies on an edge of the convex hull (Freeman and Shapira 1975), or the one
+// along `preferred` where that is no more than 2 % larger. Never empty for one point or more.
 Rectangle tight_rectangle(std::span<const DVec2> points, const DVec2& preferred);
 
 // Area of a triangle inside the axis-aligned rectangle [lower, upper].
