@@ -149,11 +149,10 @@ ToolCommand verify_command(BakeSession& session) {
 
 ToolCommand key_command(BakeSession& session) {
   const auto args = std::make_shared<FarmArguments>();
-  ToolCommand out{
-      .name = "key",
-      .help = "Prints the hash of all that a bake would follow from: files, options, seed, program",
-      .footer = "The same key, the same pack (but for --time and --reuse-error): a build system need not bake again.",
-      .options = {scene_argument(args->bake.scene)}};
+  ToolCommand out{.name = "key",
+                  .help = "Prints the hash of all that a bake would follow from: files, options, seed, program",
+                  .footer = "The same key, the same pack (but for --time): a build system need not bake again.",
+                  .options = {scene_argument(args->bake.scene)}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };

@@ -17,7 +17,6 @@ class CheckingStore : public UnitStore {
   void leave(const Hash128& name) override;
   UnitShare share() const override { return kept_.share(); }
   std::optional<Bytes> peek(const Hash128& name) override { return kept_.peek(name); }
-  std::optional<Bytes> recall(const Hash128& name) override { return kept_.recall(name); }
 
   std::uint64_t checked() const { return checked_; }
   std::uint64_t differing() const { return differing_; }

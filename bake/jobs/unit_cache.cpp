@@ -17,7 +17,7 @@ namespace oriel {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char *kUnit = ".unit", *kKnown = ".known";
+constexpr std::string_view kUnit = ".unit";
 
 constexpr std::uint64_t kMagic = 0x32304e5545524fULL;  // "OREUN02"
 
@@ -101,22 +101,22 @@ UnitCache::UnitCache(fs::path folder, std::string program, std::function<void(co
       warn_(std::move(warn)),
       leases_(folder_ / "leases", lease_life) {}
 
-fs::path UnitCache::path_of(const Hash128& own_name, const char* ending) const {
+fs::path UnitCache::path_of(const Hash128& own_name) const {
   const std::string hex = to_hex(own_name);
-  return folder_ / hex.substr(0, 2) / (hex.substr(2) + ending);
+  return folder_ / hex.substr(0, 2) / (hex.substr(2) + std::string(kUnit));
 }
 
-std::optional<KeptUnit> UnitCache::read(const Hash128& own_name, const char* ending) const {
-  const fs::path path = path_of(own_name, ending);
+std::optional<KeptUnit> UnitCache::read(const Hash128& own_name) const {
+  const fs::path path = path_of(own_name);
   const auto file = bytes_of(path);
   auto unit = file ? unit_in(*file, own_name) : std::nullopt;
   if (unit) ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);  // prune_cache() leaves what was used last
   return unit;
 }
 
-void UnitCache::write(const Hash128& own_name, const char* ending, const KeptUnit& unit) {
+void UnitCache::write(const Hash128& own_name, const KeptUnit& unit) {
   if (!writes_) return;
-  const fs::path path = path_of(own_name, ending);
+  const fs::path path = path_of(own_name);
   std::error_code ec;
   fs::create_directories(path.parent_path(), ec);
   const fs::path beside = path.string() + ".tmp-" + to_hex(hash_of(Leases::own_name(), ++written_));
@@ -127,7 +127,7 @@ void UnitCache::write(const Hash128& own_name, const char* ending, const KeptUni
 }
 
 std::optional<KeptUnit> UnitCache::find(const Hash128& name) {
-  auto unit = read(own(name), kUnit);
+  auto unit = read(own(name));
   if (!unit) return std::nullopt;
   const std::lock_guard lock(mutex_);
   ++share_.reused;
@@ -136,17 +136,8 @@ std::optional<KeptUnit> UnitCache::find(const Hash128& name) {
 }
 
 std::optional<Bytes> UnitCache::peek(const Hash128& name) {
-  auto kept = read(own(name), kUnit);
+  auto kept = read(own(name));
   return kept ? std::optional(std::move(kept->results)) : std::nullopt;
-}
-
-std::optional<Bytes> UnitCache::recall(const Hash128& name) {
-  auto kept = read(own(name), kKnown);
-  return kept ? std::optional(std::move(kept->results)) : std::nullopt;
-}
-
-void UnitCache::remember(const Hash128& name, Bytes bytes) {
-  write(own(name), kKnown, {std::move(bytes), 0});
 }
 
 // Where nothing can be written, nobody waits for it.
@@ -160,7 +151,7 @@ void UnitCache::leave(const Hash128& name) {
 
 void UnitCache::keep(const Hash128& name, const KeptUnit& unit) {
   const Hash128 own_name = own(name);
-  write(own_name, kUnit, unit);
+  write(own_name, unit);
   leases_.release(own_name);
   const std::lock_guard lock(mutex_);
   ++share_.computed;
@@ -219,12 +210,9 @@ bool is_kept(const fs::path& path) {
   if (!is_hex(folder, 2) || dot == std::string::npos || !is_hex(std::string_view(name).substr(0, dot), 30))
     return false;
   std::string_view rest = std::string_view(name).substr(dot);
-  for (const std::string_view ending : {std::string_view(kUnit), std::string_view(kKnown)})
-    if (rest.starts_with(ending)) {
-      rest.remove_prefix(ending.size());
-      return rest.empty() || rest.starts_with(".tmp-");
-    }
-  return false;
+  if (!rest.starts_with(kUnit)) return false;
+  rest.remove_prefix(kUnit.size());
+  return rest.empty() || rest.starts_with(".tmp-");
 }
 
 // Units of all programs, and what was being written when a process died.
@@ -256,8 +244,7 @@ Result<CacheContent> prune_cache(const fs::path& folder, std::uint64_t bytes) {
   CacheContent removed;
   std::uint64_t kept = 0;
   for (const CacheFile& file : files) {
-    const bool unfinished =
-        file.path.extension() != kUnit && file.path.extension() != kKnown;  // of a process that may still be at it
+    const bool unfinished = file.path.extension() != kUnit;  // of a process that may still be at it
     if (unfinished ? file.used > day_ago : kept + file.bytes <= bytes) {
       kept += file.bytes;
       continue;

@@ -11,10 +11,9 @@
 
 namespace oriel {
 
-// Files FOLDER/xx/yyy….unit, and ….known of what is remembered, named by the hash of the unit's inputs and of this
-// program. They appear whole (written beside and renamed) and are checked when read: length, name and checksum inside.
-// What is cut off, damaged or foreign is computed again. Where the folder cannot be written, one warning says so, and
-// the bake goes on.
+// Files FOLDER/xx/yyy….unit, named by the hash of the unit's inputs and of this program. They appear whole (written
+// beside and renamed) and are checked when read: length, name and checksum inside. What is cut off, damaged or foreign
+// is computed again. Where the folder cannot be written, one warning says so, and the bake goes on.
 class UnitCache : public UnitStore {
  public:
   // `program`: who computes; units of others are not found (program_identity()).
@@ -28,15 +27,13 @@ class UnitCache : public UnitStore {
 
   UnitShare share() const override;
   std::optional<Bytes> peek(const Hash128& name) override;
-  std::optional<Bytes> recall(const Hash128& name) override;
-  void remember(const Hash128& name, Bytes bytes) override;
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
   Hash128 own(const Hash128& name) const { return hash_of(program_, name); }
-  std::filesystem::path path_of(const Hash128& own_name, const char* ending) const;
-  std::optional<KeptUnit> read(const Hash128& own_name, const char* ending) const;
-  void write(const Hash128& own_name, const char* ending, const KeptUnit& unit);
+  std::filesystem::path path_of(const Hash128& own_name) const;
+  std::optional<KeptUnit> read(const Hash128& own_name) const;
+  void write(const Hash128& own_name, const KeptUnit& unit);
 
   std::filesystem::path folder_;
   std::string program_;

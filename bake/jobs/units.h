@@ -39,9 +39,6 @@ class UnitStore {
   // As find(), but not counted in share(): who looks may compute it all the same.
   virtual std::optional<Bytes> peek(const Hash128&) { return std::nullopt; }
   virtual UnitShare share() const = 0;
-  // What was remembered last under a name: no unit, since what it is depends on who came last. Not counted in share().
-  virtual std::optional<Bytes> recall(const Hash128&) { return std::nullopt; }
-  virtual void remember(const Hash128&, Bytes) {}
 };
 
 // While it lives, the units of loops are named by these inputs of their stage too.

@@ -39,8 +39,6 @@ const IdleRule kRules[] = {
     {"--orders", no_maps},
     {"--probe", no_light_field},
     {"--reflections", no_reflectors},
-    {"--reuse-error",
-     [](const BakeOptions&, const IdleFacts& facts) { return facts.cached ? nullptr : "there is no --cache"; }},
     {"--sh-bands", no_light_field},
     {"--sky-rotation", no_sky_file},
     {"--sky-scale", no_sky_file},

@@ -15,7 +15,6 @@ struct IdleFacts {
   bool light_field = false;  // they, or lamps that move, need the light around
   bool reflectors = false;   // planar or curved ones that eyes see
   bool maps = false;         // radiance maps are planned
-  bool cached = false;       // there is a cache of earlier bakes
 };
 
 // A line for each option of options.given that changes nothing, with the reason.

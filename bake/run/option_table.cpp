@@ -61,12 +61,6 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "less work) or reference (unbiased paths from every texel, to check the other against)",
        choice(r.estimator, {{"cached", Estimator::kCached}, {"reference", Estimator::kReference}}), Use::kRare,
        "estimator", "notes/radiosity.md"},
-      {"--reuse-error", kLightmap,
-       "After an edit of the scene: keep the light of the last whole bake in the cache, with these options, where the "
-       "edit changes it by no more than that, relative. The error that this brings is measured and stated. The pack "
-       "then depends on the cache. Default: all is baked",
-       quantity(r.reuse_error, "SHARE", parse_share, share_text), Use::kRare, "reuse_error",
-       "pipelines.md#after-an-edit"},
       {"--bounces", kLightmap,
        "Count so many reflections only; 0: all of them. Fewer darken the scene; for comparing with bakers that stop "
        "there",

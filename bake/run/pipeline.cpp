@@ -147,12 +147,8 @@ class Bake {
 
   void tell_idle_options(const PlannedReflections& planned) {
     const auto is_sun = [](const Light& light) { return light.type == LightType::kDirectional; };
-    const IdleFacts facts{std::any_of(scene().lights.begin(), scene().lights.end(), is_sun),
-                          !prepared_.movers.empty(),
-                          wants_light_field(),
-                          !planned.empty(),
-                          !planned.plan.maps.empty(),
-                          context_.units != nullptr};
+    const IdleFacts facts{std::any_of(scene().lights.begin(), scene().lights.end(), is_sun), !prepared_.movers.empty(),
+                          wants_light_field(), !planned.empty(), !planned.plan.maps.empty()};
     for (const std::string& line : idle_options(options_, facts)) context_.warning("idle-option", line);
   }
 

@@ -194,11 +194,6 @@ Json movers_json(std::span<const MoverReport> movers) {
   return out;
 }
 
-Json reuse_json(const ReuseReport& r) {
-  if (r.asked <= 0) return Json();
-  return {{"asked", r.asked}, {"tiles", r.tiles}, {"kept", r.reused}, {"relative_error", r.error}};
-}
-
 // Where light comes from beside emitting surfaces: what oriel-inspect why asks for. World metres.
 Json punctual_json(const Scene& scene) {
   Json out = Json::array();
@@ -306,7 +301,6 @@ std::string plan_json(const BakeFacts& f) {
         {"out_of_rays", f.radiosity.out_of_rays},
         {"certificate", certificate_json(f)},
         {"refinements", f.radiosity.refinements},
-        {"reuse", reuse_json(f.radiosity.reuse)},
         {"seams", seams_json(f.radiosity.seams)},
         {"detail", detail_json(f.radiosity.detail)},
         {"mean_lux", rgb(f.radiosity.mean)},

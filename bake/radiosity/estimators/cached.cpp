@@ -10,7 +10,6 @@
 #include "bake/radiosity/estimators/light_component.h"
 #include "bake/radiosity/estimators/patches.h"
 #include "bake/radiosity/estimators/progress_estimate.h"
-#include "bake/radiosity/estimators/reuse.h"
 #include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/gather/bright_texels.h"
 #include "bake/radiosity/gather/survival.h"
@@ -46,7 +45,6 @@ class CachedEstimator : public LightEstimator {
         direct_(texels_.count(), options_.directional, query_.groups()),
         gathered_(texels_.count(), options_.directional, query_.groups()),
         lamps_(texels_.count(), options_.directional, query_.groups()),
-        fixed_additional_(texels_.count()),
         frames_(task.pixels, task.map, texels_.has_light()),
         most_rays_(options_) {}
 
@@ -54,8 +52,6 @@ class CachedEstimator : public LightEstimator {
     if (importance_.empty()) ORIEL_TRY_VOID(begin(goal));
     if (goal.longer_paths) ORIEL_TRY_VOID(gather_with_longer_paths());
     ORIEL_TRY_VOID(refine_to(goal.error / noise_of_hours(query_, importance_, {direct_, gathered_})));
-    // A bake that reused light is not stored: errors would add up from edit to edit.
-    if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().reused > 0)) store_for_reuse();
     return {};
   }
 
@@ -65,11 +61,8 @@ class CachedEstimator : public LightEstimator {
     report.bounded_patches = sweeps_.bounded;
     report.filter_drift = std::max(std::fabs(smooth_direct_.energy_drift), std::fabs(estimate_.energy_drift));
     report.ended_early = ended_early_, report.out_of_rays = out_of_rays_, report.first_rays = first_rays_;
-    report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
-    write_texels(
-        {texels_, smooth_direct_, estimate_, direct_.sharp, direct_.moments, of_gathered, reuse_ ? &*reuse_ : nullptr},
-        light);
+    write_texels({texels_, smooth_direct_, estimate_, direct_.sharp, direct_.moments, of_gathered}, light);
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
@@ -94,25 +87,22 @@ class CachedEstimator : public LightEstimator {
     error_graph_ = with_chart_neighbours(graph_, texels_);
     importance_ = typical_errors(error_graph_, frames_.importance(), context_);
     little_seen_ = little_seen(order_, importance_, kLittleSeen * goal.error * goal.error);
-    load_previous();
     ORIEL_TRY_VOID(first_direct());
     // With limited bounces rays find this light, which count bounces.
     if (options_.bounces == 0)
       ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
-    irradiance_ = coarse_ = direct_.value;
+    irradiance_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
     const SweepOptions how = sweep_options(options_, goal.error, texels_.count());
     const GroupedLight* grouped = query_.groups() > 0 ? &grouped_ : nullptr;
     if (grouped) grouped_ = direct_.grouped;
     for (int h = 0; grouped && h < kHalves; ++h) grouped_.add(gathered_.additional_grouped[h], 0.5f);
     ORIEL_TRY(sweeps_, sweep({texels_, graph_, query_, irradiance_, grouped}, how, task_.paths));
-    for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
-      irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
+    for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i) irradiance_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
     if (grouped) grouped_.add(sweeps_.grouped), cached_.grouped = grouped;
     bright_ = BrightTexels(query_, {texels_, sample_points_, cached_, sweeps_.gathered, importance_}, context_.seed);
     if (!bright_.empty()) cached_.bright = &bright_;
-    reuse_previous();
     ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, query_, order_, cached_, task_.paths); }));
     ORIEL_TRY_VOID(first_gather());
     first_work_ = task_.work(), first_rays_ = task_.paths.traced() + task_.quick.traced();
@@ -123,46 +113,13 @@ class CachedEstimator : public LightEstimator {
   Status follow_lamps(std::uint64_t per_half, LampLight& lamps, HalfSums& sums) {
     ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, query_, per_half, task_.paths, lamps); }));
     if (lamps.particles == 0) return {};
-    set_additional(lamps, fixed_additional_, sums);
+    set_additional(lamps, sums);
     query_.leave_out_lamps();
     return {};
   }
 
-  void store_for_reuse() {
-    PreviousLight stored = stored_;
-    stored.page = texels_.page, stored.x = texels_.x, stored.y = texels_.y,
-    stored.chart = marked_charts(texels_.chart, task_.sharp);
-    stored.min_distance = query_.min_distance(), stored.lamps = lamps_.particles > 0;
-    stored.coarse = coarse_, stored.direct = direct_, stored.gathered = gathered_;
-    store_light(context_, cache_key_, std::move(stored));
-  }
-
   // Texels of little importance do not count.
   bool is_occlusion_heavy(std::size_t i) const { return texels_.occlusion_heavy[i] && !little_seen_[i]; }
-
-  void load_previous() {
-    cache_key_ = previous_light_key(query_.transport().accel.scene(), texels_, options_, query_.transport().options,
-                                    context_.seed);
-    // With one bounce there is no coarse estimate of gathered light to compare.
-    if (options_.reuse_error <= 0 || options_.bounces == 1 || query_.groups() > 0) return;
-    if (auto previous = load_previous_light(context_, cache_key_, options_.directional)) {
-      query_.set_min_distance(previous->min_distance);  // light is divided between paths and particles as it was then
-      reuse_.emplace(texels_, marked_charts(texels_.chart, task_.sharp), std::move(*previous));
-    }
-  }
-
-  // Restores the previous estimate of reused texels, and of direct light that is the same.
-  void reuse_previous() {
-    if (!reuse_) return;
-    reuse_->compare(texels_, order_, coarse_, lamps_.particles > 0, options_.reuse_error);
-    reuse_->restore(same_direct_, direct_, gathered_);
-  }
-  bool reuses(std::size_t i) const { return reuse_ && reuse_->reuses(i); }
-  std::vector<std::uint32_t> not_reused() const {
-    std::vector<std::uint32_t> list = order_;
-    std::erase_if(list, [&](std::uint32_t i) { return reuses(i); });
-    return list;
-  }
 
   // Takes more samples where a neighbour's visibility differs: a shadow edge is near.
   Status first_direct() {
@@ -172,8 +129,6 @@ class CachedEstimator : public LightEstimator {
     const std::uint32_t first = first_direct_.samples();
     const auto enough = first_direct_.time_is_over();
     ORIEL_TRY_VOID(first_direct_.estimate(occluded, std::max(first, kOccludedDirect), enough));
-    stored_.first_pass = direct_.value;
-    if (reuse_) reuse_->restore_unrefined(same_direct_ = reuse_->same_first_pass(graph_, direct_.value), direct_.value);
     // Bounces start from direct light: an error of more than a few percent would tint them all.
     std::uint32_t per_half = first;
     const double least = (1 - FirstDirect::kTime) * seconds_left();
@@ -182,16 +137,13 @@ class CachedEstimator : public LightEstimator {
       // A fixed number of gather rays brings a fixed number of shadow rays with it.
       if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
       std::vector<std::uint32_t> list = order_;
-      std::erase_if(list, [&](std::uint32_t i) {
-        return little_seen_[i] || (reuse_ && same_direct_[i]) || direct_.per_half[i] >= per_half;
-      });
+      std::erase_if(list, [&](std::uint32_t i) { return little_seen_[i] || direct_.per_half[i] >= per_half; });
       keep_uncertain(direct_, error_graph_, round == 0 ? 0 : kUncertain, context_, list);
       // A round that would not end in time is not begun.
       const double more = 1.0 * per_half / first * (double(list.size()) / double(order_.size()));
       if (options_.left && first_direct_.seconds() * more > seconds_left() - least) break;
       ORIEL_TRY_VOID(first_direct_.estimate(list, per_half, enough));
     }
-    stored_.unrefined_direct = direct_.value;
     return {};
   }
 
@@ -231,9 +183,8 @@ class CachedEstimator : public LightEstimator {
     return light;
   }
 
-  // Measured over the texels that are not reused: refining them cannot reduce the others' error.
   LightComponent component(LightComponent component) const {
-    component.measure(not_reused(), frames_.importance());
+    component.measure(order_, frames_.importance());
     return component;
   }
 
@@ -246,7 +197,7 @@ class CachedEstimator : public LightEstimator {
   // Texels without any gather ray, for lack of time, take the light of the bounces.
   Status first_gather() {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
-    std::vector<std::uint32_t> list = not_reused();
+    std::vector<std::uint32_t> list = order_;
     const auto gather_list = [&](std::uint32_t n) {
       return refine([&] { return gather_.run(list, n, task_.paths, gathered_); });
     };
@@ -289,7 +240,7 @@ class CachedEstimator : public LightEstimator {
       if (now <= goal && (direct.mean + gathered.mean <= goal || !most_rays_.raise())) return {};
       if ((ended_early_ = done()) || (out_of_rays_ = out_of_rays())) return {};
       const FrameGoal to_reach{importance_, now, goal};
-      const auto worst = [&](const auto& p) { return worst_of(error_graph_, not_reused(), p, to_reach, context_); };
+      const auto worst = [&](const auto& p) { return worst_of(error_graph_, order_, p, to_reach, context_); };
       std::vector<std::uint32_t> list;
       if (direct.pays_more_than(gathered) && !(list = worst(direct)).empty()) {
         ORIEL_TRY_VOID(refine_direct(list, direct.max_samples));
@@ -330,22 +281,19 @@ class CachedEstimator : public LightEstimator {
   // Gathers as many samples again, with longer paths. The old ones stay if time runs out.
   Status gather_with_longer_paths() {
     const float before = query_.min_distance();
-    if (before >= kLongerPaths) return {};  // as did the previous bake, whose light is reused
+    if (before >= kLongerPaths) return {};
     query_.set_min_distance(kLongerPaths);
     HalfSums anew = gathered_;
-    const std::vector<std::uint32_t> list = not_reused();
-    for (const std::uint32_t i : list) anew.clear(i);
+    for (const std::uint32_t i : order_) anew.clear(i);
     LampLight lamps(texels_.count(), options_.directional, query_.groups());
     if (lamps_.particles > 0) ORIEL_TRY_VOID(follow_lamps(lamps_.particles, lamps, anew));
-    ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
+    ORIEL_TRY_VOID(by_samples(order_, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
       return gather_.run(same, samples, task_.paths, anew);
     }));
     if (ended_early_) {
       query_.set_min_distance(before);
       return {};
     }
-    for (std::size_t i = 0; i < texels_.count(); ++i)
-      if ((fixed_additional_[i] = reuses(i))) anew.copy_additional(i, gathered_);
     gathered_ = std::move(anew), lamps_ = std::move(lamps);
     update_estimate();
     return {};
@@ -365,19 +313,13 @@ class CachedEstimator : public LightEstimator {
   HalfSums gathered_;
   FirstDirect first_direct_{task_, direct_light_, texels_, direct_};
   LampLight lamps_;
-  std::vector<bool> fixed_additional_;  // by texel: its additional light is that of former particles
-  Estimate smooth_direct_;              // of the direct light
-  Estimate estimate_;                   // of the gathered light
-  std::vector<Vec3> irradiance_;        // of texels as gather rays find it, lux
-  std::vector<Vec3> coarse_;            // without light of particles, lux
-  CachedLight cached_;                  // irradiance_ with slopes
+  Estimate smooth_direct_;        // of the direct light
+  Estimate estimate_;             // of the gathered light
+  std::vector<Vec3> irradiance_;  // of texels as gather rays find it, lux
+  CachedLight cached_;            // irradiance_ with slopes
   const FinalGather gather_{sample_points_, query_, cached_};
-  BrightTexels bright_;            // importance sampled texels of it
-  GroupedLight grouped_;           // irradiance_ by light group; may be empty
-  std::optional<Reuse> reuse_;     // of the previous bake
-  std::vector<bool> same_direct_;  // by texel: direct light is that of the previous bake
-  Hash128 cache_key_;
-  PreviousLight stored_;  // for the next bake
+  BrightTexels bright_;   // importance sampled texels of it
+  GroupedLight grouped_;  // irradiance_ by light group; may be empty
   FrameError frames_;
   MostRays most_rays_;
   std::vector<float> importance_;                    // by texel: fraction of the frame pixels, neighbourhood average

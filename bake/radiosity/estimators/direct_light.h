@@ -39,13 +39,6 @@ struct DirectSums {
     halves[0].add(grouped_difference, 0.5f), halves[1].add(grouped_difference, -0.5f);
     return halves;
   }
-
-  void copy(std::size_t i, const DirectSums& from, std::size_t k) {
-    value[i] = from.value[k], difference[i] = from.difference[k];
-    variance[i] = from.variance[k], uneven[i] = from.uneven[k], sharp[i] = from.sharp[k];
-    if (!from.moments.empty()) moments[i] = from.moments[k];
-    per_half[i] = from.per_half[k];
-  }
 };
 
 // Removes texels with a reliable estimate from the list. Those stay whose direct light, or a neighbour's, has a

@@ -22,9 +22,8 @@ std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& option
   return std::max(kLeast, of_both / kHalves);
 }
 
-void set_additional(const LampLight& lamps, const std::vector<bool>& fixed, HalfSums& sums) {
+void set_additional(const LampLight& lamps, HalfSums& sums) {
   for (std::size_t i = 0; i < sums.samples.size(); ++i) {
-    if (fixed[i]) continue;
     for (int h = 0; h < kHalves; ++h) sums.additional[h][i] = lamps.half(h, i);
     if (!sums.additional_moments.empty())
       sums.additional_moments[i] = lamps.moments[i] / static_cast<float>(kHalves * lamps.particles);

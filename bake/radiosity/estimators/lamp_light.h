@@ -12,8 +12,8 @@ namespace oriel {
 // The initial number of particles per half: eight a texel; with a fixed number of gather rays, one for every eight.
 std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& options);
 
-// Sets HalfSums::additional from the particles, except for texels in `fixed`, which keep theirs.
-void set_additional(const LampLight& lamps, const std::vector<bool>& fixed, HalfSums& sums);
+// Sets HalfSums::additional from the particles.
+void set_additional(const LampLight& lamps, HalfSums& sums);
 
 // Light by particles, filtered apart from gathered light: caustics have edges where gathered light has none. Empty
 // without particles.

@@ -66,9 +66,6 @@ struct RadiosityOptions {
   // thousand); 0: none. If it is measurably above 1.1 times `error`, the light is refined again, where less noise or
   // longer paths before look-ups can reduce it, at most kRefinements times.
   double verify = 0.1;
-  // cached: relative change of light by an edit of the scene, up to which tiles of texels reuse the light of the last
-  // bake with these options that reused none itself (in Context::units); 0: no reuse.
-  double reuse_error = 0;
   FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
@@ -115,13 +112,6 @@ struct HeldOutError {
   std::vector<WorstPixel> worst;  // at most eight, the worst first, each with 1 % of the squared error or more
 };
 
-// Reuse of the previous bake's light after an edit (RadiosityOptions::reuse_error).
-struct ReuseReport {
-  double asked = 0;                   // 0: all was baked
-  std::size_t tiles = 0, reused = 0;  // of 64 texels each; those reused
-  double error = 0;                   // due to reuse: rms over visible texels, relative; included in relative_error
-};
-
 // Finer light (LightmapPage::cell).
 struct DetailReport {
   std::size_t cells = 0, points = 0;
@@ -133,7 +123,6 @@ struct DetailReport {
 
 struct RadiosityReport {
   DetailReport detail;
-  ReuseReport reuse;
   HeldOutError held_out_error;  // of the cached estimator
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones

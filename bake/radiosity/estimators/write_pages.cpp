@@ -36,10 +36,7 @@ void write_texels(const TexelEstimate& estimate, Radiosity& light) {
       page.direction[texel] = direction_of(estimate.direct_moments[i] + estimate.gathered_moments[i]);
     page.irradiance[texel] = glm::max(estimate.direct.value[i] + estimate.gathered.value[i], Vec3(0));
     if (!light.sharp.empty()) light.sharp[texels.page[k]].irradiance[texel] = estimate.sharp[i];
-    const bool reused = estimate.reuse && estimate.reuse->reuses(i);
-    const Vec3 edited = page.irradiance[texel] * (reused ? estimate.reuse->change(i) : 0);
-    page.standard_error[texel] =
-        glm::sqrt(estimate.direct.variance[i] + estimate.gathered.variance[i] + edited * edited);
+    page.standard_error[texel] = glm::sqrt(estimate.direct.variance[i] + estimate.gathered.variance[i]);
   }
 }
 

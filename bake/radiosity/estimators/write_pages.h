@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bake/radiosity/estimators/filter.h"
-#include "bake/radiosity/estimators/reuse.h"
+#include "bake/radiosity/estimators/radiosity_options.h"
 
 namespace oriel {
 
@@ -14,7 +14,6 @@ struct TexelEstimate {
   const Estimate &direct, &gathered;                          // without what is computed by pixel
   const std::vector<Vec3>& sharp;                             // that
   const std::vector<Vec4>&direct_moments, &gathered_moments;  // empty unless pages have directions
-  const Reuse* reuse = nullptr;                               // light of the previous bake; may be null
 };
 // Does LightEstimator::write(), except for the report.
 void write_texels(const TexelEstimate& estimate, Radiosity& light);

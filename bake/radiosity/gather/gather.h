@@ -38,15 +38,6 @@ struct HalfSums {
     for (GroupedLight& half : grouped) std::ranges::fill(half.of(i), Vec3(0));
     samples[i] = 0;
   }
-  void copy(std::size_t i, const HalfSums& from, std::size_t k) {
-    for (int h = 0; h < kHalves; ++h) sum[h][i] = from.sum[h][k], slope[h][i] = from.slope[h][k];
-    if (!from.moments.empty()) moments[i] = from.moments[k];
-    samples[i] = from.samples[k];
-  }
-  void copy_additional(std::size_t i, const HalfSums& from) {
-    for (int h = 0; h < kHalves; ++h) additional[h][i] = from.additional[h][i];
-    if (!additional_moments.empty()) additional_moments[i] = from.additional_moments[i];
-  }
   // Sets one sample by an assumed irradiance, lux, instead of a gathered one. uncertain: its relative error. of_groups:
   // irradiance by light group, of all texels.
   void set_assumed(std::size_t i, const Vec3& light, float uncertain, const GroupedLight& of_groups) {

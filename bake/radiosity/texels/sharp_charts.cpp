@@ -127,16 +127,6 @@ SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas) {
   return out;
 }
 
-std::vector<std::uint32_t> marked_charts(std::vector<std::uint32_t> charts, const SharpCharts* sharp) {
-  for (std::uint32_t& chart : charts) {
-    if (sharp == nullptr || !sharp->charts[chart].flat) continue;
-    std::uint32_t mark = 0;
-    for (const bool apart : sharp->charts[chart].sharp) mark = 31 * mark + apart;
-    chart += mark << 16u;
-  }
-  return charts;
-}
-
 std::vector<std::vector<std::uint32_t>> charts_of_texels(const Atlas& atlas, std::span<const TexelMapPage> map) {
   std::vector<std::vector<std::uint32_t>> charts;
   for (const TexelMapPage& page : map) {

@@ -40,9 +40,6 @@ const char* why_in_texels(const Scene& scene, const Light& light);
 // A chart has its brightest few: each costs the time of a frame.
 SharpCharts find_sharp_charts(const Scene& scene, const Atlas& atlas);
 
-// Numbers of charts that differ, too, where other lights of theirs are apart. sharp: may be null.
-std::vector<std::uint32_t> marked_charts(std::vector<std::uint32_t> charts, const SharpCharts* sharp);
-
 // By page and texel: the chart of the texel's first triangle, ~0u: none.
 std::vector<std::vector<std::uint32_t>> charts_of_texels(const Atlas& atlas, std::span<const TexelMapPage> map);
 

@@ -105,8 +105,7 @@ TEST(Atlas, MirroredOrderOfCornersIsTheOtherSide) {
   }
 }
 
-// Rounding of places decides nothing: faces of these shapes are alike in many ways. A bake with --reuse-error asks for
-// it.
+// Rounding of places decides nothing: faces of these shapes are alike in many ways.
 TEST(Atlas, WhatIsMovedKeepsItsCharts) {
   Scene scene = shapes::empty_scene();
   shapes::add_icosphere(scene, "sphere", 0.7f, 3);

@@ -51,7 +51,6 @@ class Farm : public ::testing::Test {
     return report(pack)["units"][which].get<std::uint64_t>();
   }
 
-  Json reuse(const std::string& pack) const { return report(pack)["plan"]["radiosity"]["reuse"]; }
   // Texts of one length.
   void replace_in_scene(const std::string& what, const std::string& by) const {
     Bytes scene = bytes("cornell.glb");
@@ -98,24 +97,6 @@ TEST_F(Farm, AnotherFieldOfViewComputesNothing) {
   ASSERT_EQ(finish(bake("b.oriel", " --only radiosity")), 0);
   EXPECT_EQ(units("b.oriel", "computed"), 0);
   EXPECT_GT(units("b.oriel", "reused"), 0);
-}
-
-TEST_F(Farm, TilesWhoseLightAnEditLeavesKeepIt) {
-  const std::string reuse = " --only radiosity --reuse-error 2%";
-  ASSERT_EQ(finish(bake("a.oriel", reuse)), 0);
-  EXPECT_EQ(this->reuse("a.oriel")["kept"], 0) << "there was no bake before";
-  replace_in_scene("0.6860479116439819", "0.4860479116439819");
-  ASSERT_EQ(finish(bake("b.oriel", reuse)), 0);
-  EXPECT_GT(this->reuse("b.oriel")["tiles"].get<double>(), 0);
-  EXPECT_EQ(this->reuse("b.oriel")["kept"], this->reuse("b.oriel")["tiles"]);
-  EXPECT_EQ(this->reuse("b.oriel")["relative_error"], 0);
-  EXPECT_EQ(finish("oriel-inspect diff a.oriel b.oriel --tolerance 0"), 5) << "the camera's field of view";
-  EXPECT_EQ(finish("oriel-inspect diff a.oriel b.oriel --tolerance 30%"), 0) << "no light";
-  replace_in_scene(kAlbedo, kDarker);
-  ASSERT_EQ(finish(bake("c.oriel", reuse)), 0);
-  EXPECT_LT(this->reuse("c.oriel")["kept"].get<double>(), this->reuse("c.oriel")["tiles"].get<double>())
-      << "less red light";
-  EXPECT_LE(this->reuse("c.oriel")["relative_error"].get<double>(), 0.02);
 }
 
 TEST_F(Farm, WorkersThatDieAndWhoseClocksAreWrongMakeTheSameBytes) {
