@@ -52,7 +52,7 @@ std::string slurm_script(const SubmitArguments& args, const std::string& program
 }
 
 Status run_submit(const SubmitArguments& args) {
-  ORIEL_TRY(const std::filesystem::path program, program_beside("oriel-bake"));
+  ORIEL_TRY(const std::filesystem::path program, this_program());
   const std::string script = slurm_script(args, program.string());
   if (args.dry_run) return print(script);
   if (std::system(script.c_str()) != 0)

@@ -97,7 +97,7 @@ Result<Bytes> read_external(const std::string& uri, const std::filesystem::path&
   auto bytes = read_file(path, budget.left());
   if (!bytes) return invalid(where, "{}", bytes.error().text());
   ORIEL_TRY_VOID(budget.take(bytes->size(), where));
-  inputs.emplace_back(name.string(), hash128_hex(*bytes));
+  inputs.emplace_back(path.lexically_proximate(folder).string(), hash128_hex(*bytes));
   return std::move(*bytes);
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bake/brdf/specular.h"
+#include "bake/radiosity/radiosity.h"
 #include "bake/radiosity/texels/sharp_charts.h"
 #include "formats/assets/sharp_light.h"
 #include "formats/core/color.h"
@@ -108,13 +109,15 @@ StageCensus radiosity_stage(const CensusInput& in, const LightCensus& lights) {
 StageCensus sharp_light_stage(const CensusInput& in) {
   const Scene& scene = in.prepared.scene();
   if (scene.lights.empty()) return {"sharp light", false, "no light by the pixel: no points, spots and suns", {}};
+  if (!finds_sharp_light(in.options.radiosity))
+    return {"sharp light", false, "no light by the pixel: these options keep all of it in texels", {}};
   std::map<std::string, std::vector<std::string>> in_texels;
   for (const Light& light : scene.lights)
     if (const char* why = why_in_texels(scene, light)) in_texels[why].push_back(light.name);
   const SharpCharts sharp = find_sharp_charts(scene, in.prepared.atlas);
   const std::ptrdiff_t flat = std::ranges::count_if(sharp.charts, &ChartGrid::flat);
   std::string why = fmt::format("light of {} of {} points, spots and suns by the pixel, on flat charts",
-                                sharp.lights.size(), scene.lights.size());
+                                flat > 0 ? sharp.lights.size() : 0, scene.lights.size());
   if (sharp.lights.size() > kMostShines) why += fmt::format(", of each the {} brightest", kMostShines);
   for (const auto& [reason, names] : in_texels)
     why += fmt::format("; {}{} in texels: {}", names[0],

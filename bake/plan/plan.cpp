@@ -1,6 +1,7 @@
 #include "bake/plan/plan.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace oriel {

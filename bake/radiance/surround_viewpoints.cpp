@@ -170,15 +170,16 @@ class Viewpoint {
 Status place_surround_maps(const Accel& accel, std::span<const Vec3> eyes, Context& context,
                            FoundCurvedReflectors& found) {
   if (eyes.empty()) return {};
-  (void)parallel_for(context, "", found.reflectors.size(), [&](std::size_t i) {
+  const Status all = parallel_for(context, "", found.reflectors.size(), [&](std::size_t i) {
     FoundCurvedReflector& reflector = found.reflectors[i];
     Vec3& centre = found.maps[reflector.reflector.map].centre;
     const auto best = Viewpoint(accel, eyes, reflector, found.objects[reflector.object], context.seed).best(centre);
     centre = best.place;
     reflector.view = best.view;
   });
-  return context.stop ? fail(ErrorCode::kStopped, "reflectors", "stopped")
-                      : Status();  // late: others stay where they are
+  if (context.stop) return all;
+  if (!all) context.warning("time-over", "surround maps: some are taken from their middles, as --time was over");
+  return {};
 }
 
 }  // namespace oriel

@@ -328,7 +328,7 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
   RadiosityTask task{scene, pixels, options, context, {context, &rays}, {context, &quick_rays}};
   SharpCharts charts;
   ShadowLists shadows;
-  if (options.sharp && options.estimator == Estimator::kCached && options.hidden == Hidden::kLeftOut) {
+  if (finds_sharp_light(options)) {
     charts = find_sharp_charts(scene.transport.accel.scene(), scene.atlas);
     if (!charts.lights.empty()) ORIEL_TRY_VOID(find_sharp_light(task, charts, shadows));
     if (!shadows.light.empty()) task.sharp = &charts;

@@ -6,6 +6,11 @@
 
 namespace oriel {
 
+// Whether direct light of points, spots and suns is found apart, by pixel (docs/notes/sharp-light.md).
+inline bool finds_sharp_light(const RadiosityOptions& options) {
+  return options.sharp && options.estimator == Estimator::kCached && options.hidden == Hidden::kLeftOut;
+}
+
 // Bakes the light of front sides; split_sides() gives lit backs texels of their own.
 //
 // options.estimator: `cached`, the default of oriel-bake (estimators/cached.h; docs/notes/radiosity.md describes its

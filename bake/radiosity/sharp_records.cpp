@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/radiosity/texels/sharp_charts.h"
 #include "bake/trace/punctual.h"
 #include "formats/assets/light_field.h"
 #include "formats/core/half.h"
@@ -18,27 +19,11 @@ std::size_t SharpRecord::words() const {
 
 namespace {
 
-// The fewest even steps, the first at 0, that have each angle on one of them.
-std::uint32_t even_steps(std::span<const float> angles, float range) {
-  std::uint32_t n = 1;
-  const auto is_on_step = [&](float angle) {
-    const float at = angle * static_cast<float>(n) / range;
-    return std::abs(at - std::round(at)) < 1e-3f;
-  };
-  while (n < kMostProfileSteps && !std::ranges::all_of(angles, is_on_step)) ++n;
-  return n;
-}
-
 LampProfile even_profile(const LightProfile& measured) {
   LampProfile out{measured.vertical_deg.front(), measured.vertical_deg.back(), 0, 1, {}};
   const float range = out.last_deg - out.first_deg;
-  std::vector<float> angles;
-  for (const float angle : measured.vertical_deg) angles.push_back(angle - out.first_deg);
-  const std::uint32_t last = even_steps(angles, range);
-  out.rows = last + 1;
-  angles = measured.horizontal_deg;
-  angles.push_back(180);  // what is measured on one side alone is mirrored there
-  if (measured.horizontal_deg.size() > 1) out.columns = even_steps(angles, 360);
+  const auto [last, around] = profile_steps(measured);
+  out.rows = last + 1, out.columns = around;
   for (std::uint32_t i = 0; i < out.rows * out.columns; ++i) {
     const float down = static_cast<float>(i / out.columns) / static_cast<float>(last),
                 turn = static_cast<float>(i % out.columns) / static_cast<float>(out.columns);

@@ -18,12 +18,11 @@ Result<std::vector<Reflector>> list_frosted_panes(const BakeTask& bake, const As
       }));
   const Warning late_panes("lamps behind frosted panes: left out, --time was over", "time-over");
   if (!found) omissions.push_back(late_panes);
-  if (found) emitters = std::move(more);
+  if (found) emitters = std::move(more), omissions.insert(omissions.end(), omitted.begin(), omitted.end());
   for (FoundReflector& pane : panes) {
     pane.reflector.indices = mesh_indices(mesh, pane.triangles);
     listed.push_back(std::move(pane.reflector));
   }
-  omissions.insert(omissions.end(), omitted.begin(), omitted.end());
   return listed;
 }
 

@@ -1,6 +1,8 @@
 // Frosted panes and what shines on them, into the pack.
 #pragma once
 
+#include <functional>
+
 #include "bake/run/assemble.h"
 #include "bake/run/task.h"
 

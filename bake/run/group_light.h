@@ -1,6 +1,8 @@
 // Groups of lamps as a pack holds them.
 #pragma once
 
+#include <functional>
+
 #include "bake/radiosity/radiosity.h"
 #include "bake/run/assemble.h"
 #include "bake/run/baked_light.h"

@@ -50,7 +50,8 @@ Status find_planar(const BakeOptions& options, const Accel& accel, Context& cont
   found = find_reflectors(accel, all.lobes, wide);
   ORIEL_TRY_VOID(keep_seen_reflectors(accel, all.eyes, options.reflectors.max_reflectors, context, found));
   append(all.omissions, found.omitted);
-  if (found.reflectors.empty())
+  const bool late = std::ranges::any_of(found.omitted, [](const Warning& w) { return w.code == "time-over"; });
+  if (found.reflectors.empty() && !late)
     all.omissions.push_back(fmt::format(
         "radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
         options.reflectors.max_roughness, options.reflectors.min_area_m2));

@@ -1,6 +1,8 @@
 // The camera that a pack starts with.
 #pragma once
 
+#include <functional>
+
 #include "bake/run/task.h"
 #include "bake/visibility/first_look.h"
 

@@ -157,7 +157,16 @@ Result<SceneSets> bake_visibility(const BakeTask& bake, const SetEyes& onlookers
   const std::string why_not = why_not_visible_sets(options, mesh.first_index.size(), onlookers.grids);
   if (!why_not.empty()) omissions.push_back("visible sets: " + why_not);
   const bool reflected = wants_reflected_sets(options, mesh.first_index.size(), onlookers);
-  if ((!why_not.empty() && !reflected) || seconds <= 0) return sets;
+  if (!why_not.empty() && !reflected) return sets;
+  const auto too_long = [&](const char* what) {
+    omissions.push_back(
+        {fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, std::max(seconds, 0.0)),
+         "time-over"});
+  };
+  if (seconds <= 0) {
+    too_long(why_not.empty() ? "visible sets" : "visible sets of reflectors");
+    return sets;
+  }
   const VisibilityOptions& o = options.visibility;
   const auto triangles = static_cast<std::uint32_t>(mesh.first_index.size());
   const TriangleGroups groups =
@@ -172,11 +181,6 @@ Result<SceneSets> bake_visibility(const BakeTask& bake, const SetEyes& onlookers
   const GroupedScene scene{bake.accel(), group, groups.count};
   SetFinder finder(options, scene, onlookers, seconds, bake.context);
   const StageInputs inputs(bake.context, SurfacesOf{bake.scene()});
-  const auto too_long = [&](const char* what) {
-    omissions.push_back(
-        {fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, std::max(seconds, 0.0)),
-         "time-over"});
-  };
   if (why_not.empty()) {
     ORIEL_TRY(const bool done, finder.visible(visible.side, visible.seen, report.lines));
     if (!done) visible.seen.clear(), too_long("visible sets");

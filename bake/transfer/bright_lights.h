@@ -1,6 +1,8 @@
 // Lights strong enough to shine on movers by themselves, with shadows of their own, instead of in harmonics.
 #pragma once
 
+#include <functional>
+
 #include "bake/jobs/context.h"
 #include "bake/trace/lights.h"
 #include "bake/trace/polygon_light.h"
@@ -31,6 +33,7 @@ class BrightLights {
   std::size_t choose_all();
 
   std::size_t size() const { return listed_.size(); }
+  const std::vector<std::size_t>& listed() const { return listed_; }  // candidates, by number
   // Of the listed lights, in their order.
   std::vector<BrightLight> list() const;
   // The candidate that a triangle belongs to; may be null. The place in the list of Scene::lights[light], or -1.

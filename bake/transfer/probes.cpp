@@ -34,7 +34,8 @@ class FieldBake {
     std::vector<Vec3> points;
     for (const LightProbe& probe : field_.probes) points.push_back(probe.position);
     ORIEL_TRY_VOID(bright_.choose(
-        points, options_.bright_lights, [this, half = 0.5 * left()] { return left() < half; }, context_));
+        points, options_.bright_lights, [this, half = 0.5 * left()] { return left() < half || left() <= 0; },
+        context_));
     field_.lights = bright_.list();
     ORIEL_TRY(bool in_time, measure(0));
     if (!in_time) tell_unmeasured();
@@ -126,7 +127,9 @@ class FieldBake {
     std::atomic<bool> any{first > 0};
     const auto enough = [&] { return any && left() <= 0; };
     UnitLoop loop{.stage = "probes", .count = measured.size(), .rays = static_cast<double>(options_.samples)};
-    loop.inputs = [&](std::size_t i, Archive& key) { key(first + i, field_.probes[first + i].position); };
+    loop.inputs = [&](std::size_t i, Archive& key) {
+      key(first + i, field_.probes[first + i].position, bright_.listed());
+    };
     loop.compute = [&](std::size_t i) {
       std::uint64_t rays = 0;
       measured[i] = measure_probe(scene_, field_.probes[first + i].position, first + i, rays);

@@ -329,6 +329,7 @@ class WallFinder {
     std::vector<Cell> cells{
         {part.lower, Vec2(part.upper.x, part.lower.y), part.upper, Vec2(part.lower.x, part.upper.y)}};
     for (const WallLine& wall : walls(part)) {
+      if (context_.stopped()) return {};  // run() notices
       const std::size_t count = cells.size();
       for (std::size_t c = 0; c < count; ++c) {
         Cell left, right;

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 namespace oriel {
 namespace {
@@ -24,10 +25,15 @@ tl::unexpected<Error> not_started(const std::string& program, int error) {
 
 }  // namespace
 
-Result<std::filesystem::path> program_beside(const std::string& name) {
+Result<std::filesystem::path> this_program() {
   std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  auto self = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) return fail(ErrorCode::kRuntime, "/proc/self/exe", "cannot be read: {}", error.message());
+  return self;
+}
+
+Result<std::filesystem::path> program_beside(const std::string& name) {
+  ORIEL_TRY(const std::filesystem::path self, this_program());
   return self.parent_path() / name;
 }
 
@@ -37,7 +43,7 @@ Result<pid_t> start_program(std::vector<std::string> words, const ProgramStreams
   for (const auto& [own, its] : {std::pair(streams.in, 0), std::pair(streams.out, 1), std::pair(streams.err, 2)})
     if (own < 0)
       ::posix_spawn_file_actions_addopen(&actions, its, "/dev/null", its == 0 ? O_RDONLY : O_WRONLY, 0);
-    else
+    else if (own != its)  // which may be closed
       ::posix_spawn_file_actions_adddup2(&actions, own, its);
   pid_t program = -1;
   const int error = ::posix_spawnp(&program, words[0].c_str(), &actions, nullptr, arguments_of(words).data(), environ);

@@ -11,7 +11,8 @@
 
 namespace oriel {
 
-// The program of that name in the folder of this one. Error kRuntime.
+// Where this program lies, and the program of that name in its folder. Error kRuntime.
+Result<std::filesystem::path> this_program();
 Result<std::filesystem::path> program_beside(const std::string& name);
 
 // Descriptors of this process that a program gets as its own 0, 1 and 2; -1: /dev/null.

@@ -52,7 +52,7 @@ Rectangle tight_rectangle(std::span<const DVec2> points, const DVec2& preferred)
     const Rectangle r = bounds_along(hull, side / length);
     if (r.area() < least * (1 - 1e-5)) best = r, least = r.area();
   }
-  if (best.upper.y - best.lower.y > best.upper.x - best.lower.x)
+  if (best.upper.y - best.lower.y > (best.upper.x - best.lower.x) * (1 + 1e-6))  // a square stays as it is
     best = bounds_along(hull, DVec2(-best.axis.y, best.axis.x));
   return best;
 }

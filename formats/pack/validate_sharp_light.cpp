@@ -19,11 +19,9 @@ bool is_profile(const LampProfile& p) {
 
 bool is_sharp_lamp(const SharpLamp& lamp, std::size_t groups, std::span<const LampProfile> profiles) {
   return bounded(lamp.position) && is_unit(lamp.direction) && is_unit(lamp.right) && is_unit(lamp.over) &&
-         lamp.profile < std::ssize(profiles) &&
-         (lamp.profile < 0 || is_profile(profiles[static_cast<std::size_t>(lamp.profile)])) &&
-         not_negative(lamp.intensity) && within(lamp.cos_outer, -2, 1) && lamp.inverse_falloff > 0 &&
-         not_negative(lamp.inverse_falloff) && lamp.angular_radius_rad >= 0 && lamp.angular_radius_rad < kPi / 2 &&
-         (lamp.light_group < groups || lamp.light_group == ~0u);
+         lamp.profile < std::ssize(profiles) && not_negative(lamp.intensity) && within(lamp.cos_outer, -2, 1) &&
+         lamp.inverse_falloff > 0 && not_negative(lamp.inverse_falloff) && lamp.angular_radius_rad >= 0 &&
+         lamp.angular_radius_rad < kPi / 2 && (lamp.light_group < groups || lamp.light_group == ~0u);
 }
 
 // Words of the record that begins there; 0: it makes no sense. levels: as sharp_records(), of the records before it.
@@ -94,11 +92,17 @@ void validate_sharp_light(const Pack& pack, IssueList& list) {
           312,
           "lamp {}: found place {}, direction {}, intensity {}, cone {} and {}, radius {}, group {} and profile {}, "
           "expected finite numbers, length 1, intensities from 0 up, -2 to 1, above 0, less than a right angle, one "
-          "of {} groups or none, and one of {} whose angles rise from 0 to at most 180, of at most {} steps",
+          "of {} groups or none, and one of {}",
           i, text_of(lamp.position), text_of(lamp.direction), text_of(lamp.intensity), lamp.cos_outer,
           lamp.inverse_falloff, lamp.angular_radius_rad, lamp.light_group, lamp.profile, pack.light_groups.size(),
-          light.profiles.size(), kMostProfileSteps);
+          light.profiles.size());
   }
+  for (std::size_t i = 0; i < light.profiles.size(); ++i)
+    if (const LampProfile& p = light.profiles[i]; !is_profile(p))
+      list.error(312,
+                 "profile {}: found {} x {} intensities from {} to {} degrees, expected at most {} steps either way, "
+                 "angles that rise from 0 to at most 180, intensities from 0 up",
+                 i, p.rows, p.columns, p.first_deg, p.last_deg, kMostProfileSteps);
   for (std::size_t i = 0; i < light.triangles.size(); ++i)
     for (const Vec3& corner : light.triangles[i])
       if (!bounded(corner)) {

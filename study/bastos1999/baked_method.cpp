@@ -61,7 +61,7 @@ Result<LaidOut> lay_out(const BakeOptions& bake, Context& context) {
   ORIEL_TRY_VOID(lay_out_lightmap(bake, timed, context, out.prepared));
   ORIEL_TRY_VOID(make_mips(out.prepared.imported->scene, context));
   out.materials = summarize_materials(out.prepared.scene());
-  ORIEL_TRY(out.found, find_reflections(bake, out.prepared, out.materials, context));
+  ORIEL_TRY(out.found, find_reflections(bake, out.prepared, out.materials, HUGE_VAL, context));
   return out;
 }
 

@@ -46,7 +46,7 @@ TEST_F(MoverShadowsTest, AreTakenOfSharpLightToo) {
   page.sharp = page.irradiance, page.sharp_at.assign(page.sharp.size(), 1);
   SharpLamp sun;
   sun.sun = true, sun.direction = {0, -1, 0}, sun.intensity = page.irradiance[0];
-  sharp.sharp_light = {{sun}, {0, 1, SharpShine{0, false, 0}.code()}, {}};
+  sharp.sharp_light = {{sun}, {0, 1, SharpShine{0, false, 0}.code()}, {}, {}};
   Camera camera = above_floor(1.4f, 0.1f);
   camera.vertical_fov_rad = 1;
   const Picture wanted = draw(pack, camera, 33, 33), found = draw(sharp, camera, 33, 33);

@@ -23,7 +23,9 @@ function readLamp(r: ByteReader): SharpLamp {
 function readProfile(r: ByteReader): LampProfile {
   const first = r.f32(), last = r.f32(), rows = r.size(mostProfileSteps + 1, 'rows'), columns = r.size(mostProfileSteps, 'columns');
   if (!(first >= 0 && first < last && last <= 180 && rows > 1 && columns > 0)) r.fail('found a profile without angles');
-  return { first, last, rows, columns, candela: r.planesF32(rows * columns, 1) };
+  const candela = r.planesF32(rows * columns, 1);
+  if (candela.some((c) => !(c >= 0))) r.fail('found a profile with intensities below 0');
+  return { first, last, rows, columns, candela };
 }
 
 // By word: 0, or 1 and how many splits are below the record that begins there.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "bake/trace/punctual.h"
 #include "formats/assets/sharp_light.h"
@@ -16,6 +17,18 @@ constexpr float kWidestSun_rad = 0.05f;
 // are called flat.
 constexpr double kOffGrid = 0.02, kFlatCosine = 0.9998;
 constexpr double kRounding = 1e-3;  // of places on a page of 16384 texels in floats, texels
+
+// The fewest even steps, the first at 0, that have each angle on one of them; 0 where so many would not do.
+std::uint32_t even_steps(std::span<const float> angles, float range) {
+  for (std::uint32_t n = 1; n <= kMostProfileSteps; ++n) {
+    const auto is_on_step = [&](float angle) {
+      const float at = angle * static_cast<float>(n) / range;
+      return std::abs(at - std::round(at)) < 1e-3f;
+    };
+    if (std::ranges::all_of(angles, is_on_step)) return n;
+  }
+  return 0;
+}
 
 std::array<DVec2, 3> texel_corners(const Atlas& atlas, std::uint32_t triangle) {
   const AtlasPage& page = atlas.pages[static_cast<std::size_t>(atlas.page[triangle])];
@@ -86,20 +99,32 @@ double most_light(const Scene& scene, const Light& light, const ChartGrid& chart
 }
 
 void choose_lamps(const Scene& scene, std::span<const std::uint32_t> lights, ChartGrid& chart) {
-  std::vector<std::pair<double, std::uint32_t>> by_light;
+  // Suns of a day's hours come last: they never shine together.
+  std::vector<std::tuple<bool, double, std::uint32_t>> by_light;
   for (const std::uint32_t l : lights)
-    if (const double most = most_light(scene, scene.lights[l], chart); most > 0) by_light.emplace_back(-most, l);
+    if (const double most = most_light(scene, scene.lights[l], chart); most > 0)
+      by_light.emplace_back(scene.lights[l].hour >= 0, -most, l);
   std::ranges::sort(by_light);
   if (by_light.size() > kMostShines) by_light.resize(kMostShines);
   chart.sharp.resize(scene.lights.size());
-  for (const auto& [most, l] : by_light) chart.sharp[l] = true;
+  for (const auto& [hour, most, l] : by_light) chart.sharp[l] = true;
   chart.flat = !by_light.empty();
 }
 
 }  // namespace
 
+std::array<std::uint32_t, 2> profile_steps(const LightProfile& profile) {
+  std::vector<float> down, turn = profile.horizontal_deg;
+  for (const float angle : profile.vertical_deg) down.push_back(angle - profile.vertical_deg.front());
+  turn.push_back(180);  // what is measured on one side alone is mirrored there
+  return {even_steps(down, down.back()), profile.horizontal_deg.size() > 1 ? even_steps(turn, 360) : 1};
+}
+
 const char* why_in_texels(const Scene& scene, const Light& light) {
   if (scene.lights.size() > kMaxPunctual) return "one of more than 256";
+  if (light.profile >= 0 &&
+      std::ranges::min(profile_steps(scene.profiles[static_cast<std::size_t>(light.profile)])) == 0)
+    return "its angles are no even steps";
   if (light.angular_radius_rad > kWidestSun_rad) return "so wide that its shadows have no edges";
   return max_component(light.profile < 0 ? light.intensity : light.color) > 0 ? nullptr : "dark";
 }

@@ -2,6 +2,7 @@
 // (formats/assets/sharp_light.h).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "bake/atlas/texel_map.h"
@@ -34,7 +35,11 @@ struct SharpCharts {
   }
 };
 
-// Why a lamp's light stays in texels on all charts; null: it need not.
+// The even steps in which a profile is stored, downwards and around: the fewest that have each measured angle. 0: no so
+// few have.
+std::array<std::uint32_t, 2> profile_steps(const LightProfile& profile);
+
+// Why a lamp's light stays in texels on all charts, whatever other lamps there are; null: it need not.
 const char* why_in_texels(const Scene& scene, const Light& light);
 
 // A chart has its brightest few: each costs the time of a frame.

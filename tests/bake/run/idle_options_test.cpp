@@ -20,7 +20,7 @@ const std::set<std::string> kAlwaysEffective = {
     "--samples",       "--scene",     "--sky",          "--sky-type",       "--texel",
     "--texel-means",   "--time",      "--unit",         "--max-reflectors", "--lamp-scale",
     "--emission-scale"};
-constexpr IdleFacts kAll{true, true, true, true, true, true};
+constexpr IdleFacts kAll{true, true, true, true, true};
 
 BakeOptions with(const std::string& option) {
   BakeOptions o = command_line_defaults();
