@@ -112,12 +112,18 @@ TEST(Census, TellsWhichLampsComeByThePixel) {
     }
   });
   Context context;
-  const auto plan = make_plan(room.options, false, context);
+  BakeOptions options = room.options;
+  options.radiosity.sharp = true;
+  const auto plan = make_plan(options, false, context);
   ASSERT_TRUE(plan) << plan.error().text();
   const StageCensus& sharp = stage(plan->census, "sharp light");
   EXPECT_TRUE(sharp.runs);
   EXPECT_EQ(sharp.why, "light of 1 of 2 points, spots and suns by the pixel, on flat charts; dead in texels: dark");
   EXPECT_EQ(sharp.amounts[0].second, 2u);
+  options.radiosity.sharp = false;
+  const auto texels = make_plan(options, false, context);
+  ASSERT_TRUE(texels) << texels.error().text();
+  EXPECT_FALSE(stage(texels->census, "sharp light").runs);
 }
 
 TEST(Census, WithoutReflectorsNoRayIsTracedForThem) {
