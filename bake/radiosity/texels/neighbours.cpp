@@ -60,16 +60,24 @@ class NeighbourFinder {
     return pairs;
   }
 
-  // A segment just above the surface, to be found free.
+  // A segment just above the surface, to be found free. Between charts it stays below what is closer over either: the
+  // inside of a flat lamp's body faces as the ceiling over it does, but is no part of the room.
   Ray bridge(const Candidate& c) const {
-    const Vec3 from = lifted(c.a), to = lifted(c.b);
+    const bool across = texels_.chart[c.a] != texels_.chart[c.b];
+    const Vec3 from = lifted(c.a, across), to = lifted(c.b, across);
     const float length = std::sqrt(length2(to - from));
     return {from, length > 0 ? (to - from) / length : Vec3(0, 0, 1), length};
   }
 
  private:
   const Vec3& normal(std::uint32_t i) const { return texels_.sample_points[i][0].geometric_normal; }
-  Vec3 lifted(std::uint32_t i) const { return position_[i] + normal(i) * (kLift * size_[i]); }
+  Vec3 lifted(std::uint32_t i, bool below_others) const {
+    float lift = kLift * size_[i];
+    if (below_others)
+      if (const Hit hit = t_.accel.intersect({texels_.sample_points[i][0].origin, normal(i), lift}))
+        lift = 0.5f * hit.distance;
+    return position_[i] + normal(i) * lift;
+  }
   float distance2(std::uint32_t a, std::uint32_t b) const { return length2(position_[b] - position_[a]); }
 
   bool continues(std::uint32_t a, std::uint32_t b) const {

@@ -127,6 +127,30 @@ TEST(Filter, SmoothsTexelsAtTheFootOfAWall) {
   }
 }
 
+// A flat lamp's body hangs 2 cm under a ceiling. Its inside faces down, too, and may hold any light.
+TEST(Filter, TheInsideOfALampIsNoPartOfTheCeiling) {
+  SceneParts parts;
+  const auto matt = parts.diffuse(Vec3(0.5f));
+  parts.quad("ceiling", matt, {0, 2.6f, 0}, {3, 0, 0}, {0, 0, 3});
+  parts.quad("inside", matt, {1, 2.58f, 1}, {0.9f, 0, 0}, {0, 0, 0.9f});
+  parts.quad("bottom", matt, {1, 2.56f, 1}, {0.9f, 0, 0}, {0, 0, 0.9f});
+  for (const float at : {1.0f, 1.9f}) {
+    parts.quad("side", matt, {at, 2.56f, 1}, {0, 0.02f, 0}, {0, 0, 0.9f});
+    parts.quad("side", matt, {1, 2.56f, at}, {0, 0.02f, 0}, {0.9f, 0, 0});
+  }
+  Listed listed{parts.finish(), 0.4f};
+  const Transport transport = listed.transport();
+  const TexelGraph graph = *find_neighbours(transport, listed.texels, listed.context);
+  std::size_t seen = 0, inside = 0;
+  for (const std::uint32_t i : listed.floor) {
+    seen += graph.count[i];
+    for (const std::uint32_t j : graph.of(i))
+      inside += std::fabs(listed.texels.sample_point(j, 0, 0).origin.y - 2.58f) < 0.01f;
+  }
+  EXPECT_GT(seen, 100u);
+  EXPECT_EQ(inside, 0u);
+}
+
 // What light tells of a texel alone parts it from its neighbours at a contact, and everywhere only where light may
 // step.
 TEST(Filter, LightFromAllAroundStepsAtContactsAlone) {
