@@ -1,13 +1,14 @@
 // Where the edges of shadows are in frames of a pack's sharp light, beside rays from the same pixels. Usage:
-// sharp_edges SCENE PACK.oriel [--eyes N] [--size W,H]. Eyes are the pack's cameras, up to a third of them,
-// and others from 0.3 to 5 m that look at places by which a shadow ends. Each sees one lamp alone. A row of a table by
-// lamp.
+// sharp_edges SCENE PACK.oriel [--eyes N] [--size W,H] [--pictures NAME]. Eyes are the pack's cameras, up to a third of
+// them, and others from 0.3 to 5 m that look at places by which a shadow ends. Each sees one lamp alone. A row of a
+// table by lamp.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numeric>
 
 #include "bake/import/import.h"
 #include "bake/jobs/parallel.h"
@@ -15,6 +16,7 @@
 #include "bake/trace/sampler.h"
 #include "formats/cli/command.h"
 #include "formats/core/color.h"
+#include "formats/image/png.h"
 #include "formats/pack/reader.h"
 #include "formats/query/camera.h"
 #include "formats/query/sharp_light.h"
@@ -29,6 +31,7 @@ constexpr std::uint32_t kRaysOfPixel = 64;
 constexpr float kLit = 0.5f, kSharp = 0.25f;  // of the light; from a pixel to the next: such edges are asked for places
 constexpr int kFar = 6;                       // pixels: further away no edge is sought
 constexpr float kOff = 1.5f;                  // pixels
+constexpr float kPower = 1000;                // intensity of the lamp that is drawn
 
 struct Settings {
   std::string scene, pack;
@@ -125,9 +128,30 @@ class EdgeBench {
   bool same(const Pixel& a, const Pixel& b) const {
     return a.triangle != ~0u && b.triangle != ~0u && bare_.plane[a.triangle] == bare_.plane[b.triangle];
   }
+  struct Edge {
+    Vec2 at;
+    bool rises;
+  };
+  using Edges = std::map<std::array<int, 3>, Edge>;  // by pixel, and whether the next one is below
+
+  // The frame's light, of one lamp alone.
+  Result<std::vector<float>> draw(const Eye& eye);
+  // What each pixel shows, beside one ray.
+  Status find_pixels(const Eye& eye, std::span<const float> frame, LampSum& sum);
+  // Many rays where one, or the frame, finds an edge, and from there on to where all is lit or dark.
+  Status ask_edges(const Eye& eye);
+  bool is_to_be_asked(int x, int y, bool first);
   void ask_many(const Eye& eye, int x, int y);
-  // Where between that pixel and the next light passes kLit; none: it does not.
-  std::optional<Vec2> crossing(int x, int y, bool down, float Pixel::*value, float least, bool& rises);
+  // Where between a pixel and the next light passes kLit.
+  Edges edges_of(float Pixel::*value);
+  // Pixels to the nearest edge, kFar at most. like: of edges that go the same way, those that rise alike.
+  static float nearest(const Edges& edges, const Vec2& from, const std::array<int, 2>& pixel,
+                       const std::optional<std::array<bool, 2>>& like);
+  void add_distances(const Edges& right, const Edges& shown, LampSum& sum);
+  void add_wrong(const Eye& eye, const Edges& right, LampSum& sum);
+  bool shows_one_surface(int x, int y);
+  // Shown, right and their difference, one above the other.
+  Status write_picture();
 
   const Settings& settings_;
   const BarePack& bare_;
@@ -137,6 +161,7 @@ class EdgeBench {
   int width_, height_;
   std::vector<std::set<std::uint32_t>> planes_;  // by lamp
   std::vector<Pixel> pixels_;
+  Context context_;
   std::size_t number_ = 0;                                     // of the next picture
   std::map<std::uint32_t, std::unique_ptr<GpuScene>> scenes_;  // by lamp
 };
@@ -154,28 +179,20 @@ void EdgeBench::ask_many(const Eye& eye, int x, int y) {
   }
 }
 
-std::optional<Vec2> EdgeBench::crossing(int x, int y, bool down, float Pixel::*value, float least, bool& rises) {
-  const Pixel &a = at(x, y), &b = at(x + !down, y + down);
-  if (!same(a, b) || (a.*value < kLit) == (b.*value < kLit) || std::abs(a.*value - b.*value) < least)
-    return std::nullopt;
-  rises = b.*value > a.*value;
-  const float share = (kLit - a.*value) / (b.*value - a.*value);
-  return Vec2(x, y) + (down ? Vec2(0, share) : Vec2(share, 0));
-}
-
-Status EdgeBench::look(const Eye& eye, LampSum& sum) {
+Result<std::vector<float>> EdgeBench::draw(const Eye& eye) {
   std::unique_ptr<GpuScene>& scene = scenes_[eye.lamp];
-  const float kPower = 1000;
-  Pack alone;
   if (!scene) {
-    alone = bare_.pack;
+    Pack alone = bare_.pack;
     for (std::uint32_t k = 0; k < alone.sharp_light.lamps.size(); ++k)
       alone.sharp_light.lamps[k].intensity = Vec3(k == eye.lamp ? kPower : 0),
       alone.sharp_light.lamps[k].light_group = ~0u;
     ORIEL_TRY(scene, GpuScene::create(alone, device_));
   }
   ORIEL_TRY_VOID(renderer_.render(*scene, make_view(eye.camera, width_, height_, scene->bounds()), {}));
-  const std::vector<float> frame = renderer_.read_light();
+  return renderer_.read_light();
+}
+
+Status EdgeBench::find_pixels(const Eye& eye, std::span<const float> frame, LampSum& sum) {
   // Its light without shadows: a record of no triangle for all.
   LightmapPage open_page;
   open_page.width = open_page.height = 1, open_page.sharp_at = {1};
@@ -184,9 +201,7 @@ Status EdgeBench::look(const Eye& eye, LampSum& sum) {
   open.lamps[0].light_group = ~0u, open.words = {0, 1, SharpShine{0, false, 0}.code()};
   pixels_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), {});
   std::vector<std::size_t> texels(static_cast<std::size_t>(height_)), by_pixel(texels.size());
-  Context context;
-  const Stage stage{context};
-  ORIEL_TRY_VOID(parallel_for(stage, "", static_cast<std::size_t>(height_), [&](std::size_t row) {
+  ORIEL_TRY_VOID(parallel_for(context_, "", texels.size(), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width_; ++x) {
       const PixelRay ray = pixel_ray(eye.camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
@@ -210,62 +225,80 @@ Status EdgeBench::look(const Eye& eye, LampSum& sum) {
       at(x, y) = pixel;
     }
   }));
-  for (const std::size_t n : texels) sum.lit_in_texels += n;
-  for (const std::size_t n : by_pixel) sum.lit_by_pixel += n;
-  // Many rays where one, or the frame, finds an edge, and from there on to where all is lit or dark.
+  sum.lit_in_texels = std::accumulate(texels.begin(), texels.end(), sum.lit_in_texels);
+  sum.lit_by_pixel = std::accumulate(by_pixel.begin(), by_pixel.end(), sum.lit_by_pixel);
+  return {};
+}
+
+bool EdgeBench::is_to_be_asked(int x, int y, bool first) {
+  const Pixel& p = at(x, y);
+  if (p.triangle == ~0u || p.asked) return false;
+  if (first && ((p.shown > 0.02f && p.shown < 0.98f) || (p.shown > kLit) != (p.right > kLit))) return true;
+  for (int k = 0; k < 9; ++k) {
+    const Pixel& q = at(x + k % 3 - 1, y + k / 3 - 1);
+    if (same(p, q) && (first ? (q.right > kLit) != (p.right > kLit) : q.asked && q.right > 0 && q.right < 1))
+      return true;
+  }
+  return false;
+}
+
+Status EdgeBench::ask_edges(const Eye& eye) {
   for (bool first = true, more = true; more; first = false) {
     std::vector<std::vector<int>> asked(static_cast<std::size_t>(height_));
     for (int y = 1; y + 1 < height_; ++y)
-      for (int x = 1; x + 1 < width_; ++x) {
-        const Pixel& p = at(x, y);
-        if (p.triangle == ~0u || p.asked) continue;
-        bool ask = first && ((p.shown > 0.02f && p.shown < 0.98f) || (p.shown > kLit) != (p.right > kLit));
-        for (int k = 0; k < 9 && !ask; ++k) {
-          const Pixel& q = at(x + k % 3 - 1, y + k / 3 - 1);
-          ask = same(p, q) && (first ? (q.right > kLit) != (p.right > kLit) : q.asked && q.right > 0 && q.right < 1);
-        }
-        if (ask) asked[static_cast<std::size_t>(y)].push_back(x);
-      }
+      for (int x = 1; x + 1 < width_; ++x)
+        if (is_to_be_asked(x, y, first)) asked[static_cast<std::size_t>(y)].push_back(x);
     more = std::ranges::any_of(asked, [](const std::vector<int>& row) { return !row.empty(); });
-    ORIEL_TRY_VOID(parallel_for(stage, "", asked.size(), [&](std::size_t row) {
+    ORIEL_TRY_VOID(parallel_for(context_, "", asked.size(), [&](std::size_t row) {
       for (const int x : asked[row]) ask_many(eye, x, static_cast<int>(row));
     }));
   }
-  // Edges of both, by pixel and way.
-  struct Edge {
-    Vec2 at;
-    bool rises;
-  };
-  const auto edges_of = [&](float Pixel::*value, float least) {
-    std::map<std::array<int, 3>, Edge> out;
-    for (int y = 0; y + 1 < height_; ++y)
-      for (int x = 0; x + 1 < width_; ++x)
-        for (const bool down : {false, true}) {
-          bool rises = false;
-          if (const auto place = crossing(x, y, down, value, least, rises)) out.insert({{x, y, down}, {*place, rises}});
-        }
-    return out;
-  };
-  const auto nearest = [&](const std::map<std::array<int, 3>, Edge>& edges, const Vec2& from, int x, int y,
-                           std::optional<std::array<bool, 2>> like) {
-    float best = kFar;
-    for (int j = -kFar; j <= kFar; ++j)
-      for (int i = -kFar; i <= kFar; ++i)
-        for (const int down : {0, 1}) {
-          const auto found = edges.find({x + i, y + j, down});
-          if (found == edges.end() ||
-              (like && ((*like)[0] == static_cast<bool>(down)) && found->second.rises != (*like)[1]))
-            continue;
-          best = std::min(best, glm::distance(from, found->second.at));
-        }
-    return best;
-  };
-  const auto right = edges_of(&Pixel::right, 0), shown = edges_of(&Pixel::shown, 0);
+  return {};
+}
+
+EdgeBench::Edges EdgeBench::edges_of(float Pixel::*value) {
+  Edges out;
+  for (int y = 0; y + 1 < height_; ++y)
+    for (int x = 0; x + 1 < width_; ++x)
+      for (const bool down : {false, true}) {
+        const Pixel &a = at(x, y), &b = at(x + !down, y + down);
+        if (!same(a, b) || (a.*value < kLit) == (b.*value < kLit)) continue;
+        const float share = (kLit - a.*value) / (b.*value - a.*value);
+        out.insert({{x, y, down}, {Vec2(x, y) + (down ? Vec2(0, share) : Vec2(share, 0)), b.*value > a.*value}});
+      }
+  return out;
+}
+
+float EdgeBench::nearest(const Edges& edges, const Vec2& from, const std::array<int, 2>& pixel,
+                         const std::optional<std::array<bool, 2>>& like) {
+  float best = kFar;
+  for (int j = -kFar; j <= kFar; ++j)
+    for (int i = -kFar; i <= kFar; ++i)
+      for (const bool down : {false, true}) {
+        const auto found = edges.find({pixel[0] + i, pixel[1] + j, down});
+        if (found == edges.end() || (like && (*like)[0] == down && found->second.rises != (*like)[1])) continue;
+        best = std::min(best, glm::distance(from, found->second.at));
+      }
+  return best;
+}
+
+void EdgeBench::add_distances(const Edges& right, const Edges& shown, LampSum& sum) {
   for (const auto& [key, edge] : right) {
     const Pixel &a = at(key[0], key[1]), &b = at(key[0] + !key[2], key[1] + key[2]);
     if (a.asked && b.asked && std::abs(a.right - b.right) >= kSharp)
-      sum.off.push_back(nearest(shown, edge.at, key[0], key[1], std::array{key[2] != 0, edge.rises}));
+      sum.off.push_back(nearest(shown, edge.at, {key[0], key[1]}, std::array{key[2] != 0, edge.rises}));
   }
+}
+
+// At outlines the frame's pixels show more than one.
+bool EdgeBench::shows_one_surface(int x, int y) {
+  if (x == 0 || y == 0 || x + 1 == width_ || y + 1 == height_) return false;
+  for (int k = 0; k < 9; ++k)
+    if (!same(at(x, y), at(x + k % 3 - 1, y + k / 3 - 1))) return false;
+  return true;
+}
+
+void EdgeBench::add_wrong(const Eye& eye, const Edges& right, LampSum& sum) {
   std::size_t wrong = 0;
   Vec2 where(0);
   for (int y = 0; y < height_; ++y)
@@ -274,31 +307,36 @@ Status EdgeBench::look(const Eye& eye, LampSum& sum) {
       if (!p.asked) continue;
       if (p.right > 0.02f && p.right < 0.98f) ++sum.soft, sum.squares += (p.shown - p.right) * (p.shown - p.right);
       if ((p.shown > kLit) == (p.right > kLit) || std::abs(p.shown - p.right) < kSharp) continue;
-      bool whole = true;  // at outlines the frame's pixels show more than one surface
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i)
-          whole = whole && x > 0 && y > 0 && x + 1 < width_ && y + 1 < height_ && same(p, at(x + i, y + j));
-      if (!whole || nearest(right, Vec2(x, y), x, y, std::nullopt) <= kOff) continue;
+      if (!shows_one_surface(x, y) || nearest(right, Vec2(x, y), {x, y}, std::nullopt) <= kOff) continue;
       ++(p.shown > kLit ? sum.lit_in_shadow : sum.dark_in_light), ++wrong, where = Vec2(x, y);
     }
-  if (wrong > sum.worst_count) {
-    sum.worst_count = wrong;
-    sum.worst = fmt::format("{} from ({:.3f} {:.3f} {:.3f}) along ({:.3f} {:.3f} {:.3f}): {}, the last at {} {}",
-                            eye.camera.name, eye.camera.eye.x, eye.camera.eye.y, eye.camera.eye.z, eye.camera.forward.x,
-                            eye.camera.forward.y, eye.camera.forward.z, wrong, where.x, where.y);
-  }
-  if (!settings_.picture.empty()) {
-    // Shown, right and their difference, one above the other.
-    std::FILE* file = std::fopen(fmt::format("{}{}.ppm", settings_.picture, number_++).c_str(), "wb");
-    std::fprintf(file, "P6\n%d %d\n255\n", width_, 3 * height_);
-    for (int part = 0; part < 3; ++part)
-      for (const Pixel& p : pixels_) {
-        const float v = part == 0 ? p.shown : part == 1 ? p.right : std::abs(p.shown - p.right);
-        const auto byte = p.triangle == ~0u ? 60 : static_cast<int>(255 * std::clamp(v, 0.0f, 1.0f));
-        std::fputc(byte, file), std::fputc(byte, file), std::fputc(p.triangle == ~0u ? 120 : byte, file);
-      }
-    std::fclose(file);
-  }
+  if (wrong <= sum.worst_count) return;
+  sum.worst_count = wrong;
+  sum.worst = fmt::format("{} from ({:.3f} {:.3f} {:.3f}) along ({:.3f} {:.3f} {:.3f}): {}, the last at {} {}",
+                          eye.camera.name, eye.camera.eye.x, eye.camera.eye.y, eye.camera.eye.z, eye.camera.forward.x,
+                          eye.camera.forward.y, eye.camera.forward.z, wrong, where.x, where.y);
+}
+
+Status EdgeBench::write_picture() {
+  ByteImage picture{static_cast<std::uint32_t>(width_), 3 * static_cast<std::uint32_t>(height_), 3, {}};
+  for (int part = 0; part < 3; ++part)
+    for (const Pixel& p : pixels_) {
+      const bool asked = p.triangle != ~0u;
+      const float v = part == 0 ? p.shown : part == 1 ? p.right : std::abs(p.shown - p.right);
+      const auto byte = asked ? static_cast<std::uint8_t>(255 * std::clamp(v, 0.0f, 1.0f)) : std::uint8_t{60};
+      picture.pixels.insert(picture.pixels.end(), {byte, byte, asked ? byte : std::uint8_t{120}});
+    }
+  return write_png(fmt::format("{}{}.png", settings_.picture, number_++), picture);
+}
+
+Status EdgeBench::look(const Eye& eye, LampSum& sum) {
+  ORIEL_TRY(const std::vector<float> frame, draw(eye));
+  ORIEL_TRY_VOID(find_pixels(eye, frame, sum));
+  ORIEL_TRY_VOID(ask_edges(eye));
+  const Edges right = edges_of(&Pixel::right);
+  add_distances(right, edges_of(&Pixel::shown), sum);
+  add_wrong(eye, right, sum);
+  if (!settings_.picture.empty()) ORIEL_TRY_VOID(write_picture());
   ++sum.eyes;
   return {};
 }
@@ -334,12 +372,15 @@ Status run(const Settings& settings) {
   std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
   for (auto& [lamp, sum] : sums) {
     std::ranges::sort(sum.off);
-    const std::size_t n = std::max<std::size_t>(sum.off.size(), 1);
-    sum.off.resize(n);
+    const std::size_t n = sum.off.size();
     const auto close = std::ranges::upper_bound(sum.off, kOff) - sum.off.begin();
-    std::printf("| %u | %zu | %zu | %.2f | %.2f %% | %zu | %zu | %.3f | %.1f %% | %s |\n", lamp, sum.eyes, n,
-                double{sum.off[n / 2]}, 100.0 * static_cast<double>(close) / static_cast<double>(n), sum.lit_in_shadow,
-                sum.dark_in_light, std::sqrt(sum.squares / static_cast<double>(std::max<std::size_t>(sum.soft, 1))),
+    const std::string median = n > 0 ? fmt::format("{:.2f}", sum.off[n / 2]) : "",
+                      within =
+                          n > 0 ? fmt::format("{:.2f} %", 100.0 * static_cast<double>(close) / static_cast<double>(n))
+                                : "";
+    std::printf("| %u | %zu | %zu | %s | %s | %zu | %zu | %.3f | %.1f %% | %s |\n", lamp, sum.eyes, n, median.c_str(),
+                within.c_str(), sum.lit_in_shadow, sum.dark_in_light,
+                std::sqrt(sum.squares / static_cast<double>(std::max<std::size_t>(sum.soft, 1))),
                 100.0 * static_cast<double>(sum.lit_by_pixel) /
                     static_cast<double>(std::max<std::size_t>(sum.lit_by_pixel + sum.lit_in_texels, 1)),
                 sum.worst.c_str());
@@ -359,7 +400,7 @@ int main(int argc, char** argv) {
                          {"PACK", "Arguments", "A bake of it", text(settings.pack, "PACK"), Use::kRequired},
                          {"--eyes", "Options", "How many", number(settings.eyes, 1, 1e6)},
                          {"--size", "Options", "Pixels of a frame: W,H", numbers(settings.size, 1, 1e5)},
-                         {"--pictures", "Options", "Writes NAME0.ppm and so on: shown, right, and their difference",
+                         {"--pictures", "Options", "Writes NAME0.png and so on: shown, right, and their difference",
                           text(settings.picture, "NAME")}}))
     return *code;
   const Status done = run(settings);
