@@ -23,6 +23,7 @@
 #include "player/gpu/headless.h"
 #include "player/passes/frame.h"
 #include "tests/bench/sharp/bare_pack.h"
+#include "tests/bench/sharp/lamp_sum.h"
 
 namespace oriel {
 namespace {
@@ -30,7 +31,6 @@ namespace {
 constexpr std::uint32_t kRaysOfPixel = 64;
 constexpr float kLit = 0.5f, kSharp = 0.25f;  // of the light; from a pixel to the next: such edges are asked for places
 constexpr int kFar = 6;                       // pixels: further away no edge is sought
-constexpr float kOff = 1.5f;                  // pixels
 constexpr float kPower = 1000;                // intensity of the lamp that is drawn
 
 struct Settings {
@@ -43,14 +43,6 @@ struct Settings {
 struct Eye {
   Camera camera;
   std::uint32_t lamp = 0;
-};
-
-struct LampSum {
-  std::size_t eyes = 0, lit_by_pixel = 0, lit_in_texels = 0, soft = 0, lit_in_shadow = 0, dark_in_light = 0;
-  std::vector<float> off;  // by edge, pixels
-  double squares = 0;      // of soft pixels
-  std::string worst;
-  std::size_t worst_count = 0;
 };
 
 class EdgeBench {
@@ -366,25 +358,7 @@ Status run(const Settings& settings) {
   EdgeBench bench(settings, bare, shown, casters, device, *renderer);
   std::map<std::uint32_t, LampSum> sums;
   for (const Eye& eye : bench.eyes(full.cameras)) ORIEL_TRY_VOID(bench.look(eye, sums[eye.lamp]));
-  std::printf(
-      "| lamp | eyes | edges, pixels of them | median, px | within 1.5 px | lit in shadow | dark in light | penumbrae, "
-      "rms | lit by pixel | worst |\n");
-  std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
-  for (auto& [lamp, sum] : sums) {
-    std::ranges::sort(sum.off);
-    const std::size_t n = sum.off.size();
-    const auto close = std::ranges::upper_bound(sum.off, kOff) - sum.off.begin();
-    const std::string median = n > 0 ? fmt::format("{:.2f}", sum.off[n / 2]) : "",
-                      within =
-                          n > 0 ? fmt::format("{:.2f} %", 100.0 * static_cast<double>(close) / static_cast<double>(n))
-                                : "";
-    std::printf("| %u | %zu | %zu | %s | %s | %zu | %zu | %.3f | %.1f %% | %s |\n", lamp, sum.eyes, n, median.c_str(),
-                within.c_str(), sum.lit_in_shadow, sum.dark_in_light,
-                std::sqrt(sum.squares / static_cast<double>(std::max<std::size_t>(sum.soft, 1))),
-                100.0 * static_cast<double>(sum.lit_by_pixel) /
-                    static_cast<double>(std::max<std::size_t>(sum.lit_by_pixel + sum.lit_in_texels, 1)),
-                sum.worst.c_str());
-  }
+  print_table(sums);
   return {};
 }
 
