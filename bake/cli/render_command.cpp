@@ -55,7 +55,7 @@ Status run_render(const RenderArguments& args, BakeSession& session) {
   const Scene& scene = imported.scene;
   ORIEL_TRY(const Camera camera, choose_camera(scene, args.camera));
   ORIEL_TRY(const Accel accel, Accel::build(scene, {args.reproducible, thread_count(context)}));
-  const LightSet lights(scene);
+  const LightSet lights(scene, &accel);
   warn_about_light(scene, lights, context);
   ORIEL_TRY(ReferenceFrame frame, render_reference({accel, lights, {}}, camera, args.frame, context));
   LayeredImage image;

@@ -41,7 +41,7 @@ Result<ScenePlan> make_plan(const BakeOptions& asked, bool with_pilot, Context& 
   const Scene& scene = prepared.scene();
   ORIEL_TRY_VOID(lay_out(options, timed, context, prepared, plan.findings));
   if (options.choose_texel) options.atlas.texel_m = prepared.atlas.texel_m;
-  const LightSet lights(scene);
+  const LightSet lights(scene, &*prepared.accel);
   ORIEL_TRY(const MaterialMaps materials,
             timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
   ORIEL_TRY(FoundReflections reflections, timed("reflectors", [&](auto&) {

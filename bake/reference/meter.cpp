@@ -118,17 +118,14 @@ Vec3 Meter::sample_mirrored(const Place& place, std::uint64_t stream, std::uint3
 
 // And by way of frosted panes.
 Vec3 Meter::sample_frosted(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const {
-  const FrostedLights& frosted = t_.lights.frosted();
-  Vec3 sum(0);
-  if (frosted.empty()) return sum;
+  if (t_.lights.frosted().empty()) return Vec3(0);
   Sampler sampler(context_.seed + 0xf057, stream, k);
-  frosted.choose(DVec3(place.receiver.position), sampler.next1(), [&](std::size_t i, float weight) {
-    const Vec2 of_light = sampler.next2();
-    const MirroredSample s = frosted.sample(i, t_.lights, place.receiver.position, {of_light, sampler.next2()});
-    const Vec3 value = s.endless * (weight * incidence(place.receiver, s.direction));
-    if (s.legs > 0 && max_component(value) > 0) sum += value * t_.accel.transmittance_of_all(s.rays(), rays);
-  });
-  return sum;
+  const float way = sampler.next1();
+  const Vec2 of_light = sampler.next2();
+  const MirroredSample s =
+      t_.lights.frosted().sample(t_.lights, place.receiver.position, {way, of_light, sampler.next2()});
+  const Vec3 value = s.endless * incidence(place.receiver, s.direction);
+  return s.legs > 0 && max_component(value) > 0 ? value * t_.accel.transmittance_of_all(s.rays(), rays) : Vec3(0);
 }
 
 // The sky's image, combined with cosine-distributed rays by the balance heuristic.

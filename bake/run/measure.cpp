@@ -56,7 +56,7 @@ Result<Measurement> measure(const MeasureJob& job, Context& context) {
   Measurement m;
   ORIEL_TRY(m.points, points_of(job, scene));
   ORIEL_TRY(const Accel accel, Accel::build(scene, {job.reproducible, thread_count(context)}));
-  const LightSet lights(scene);
+  const LightSet lights(scene, &accel);
   warn_about_light(scene, lights, context);
   ORIEL_TRY(m.results, illuminance_at({accel, lights, {}}, m.points, job.lux, context));
   ORIEL_TRY_VOID(settle_buried(job, m, context));

@@ -101,7 +101,7 @@ class Bake {
       for (const std::string& name : {surface.name, surface.mesh_name})
         result_.node_paths.try_emplace(name, surface.node_path);
     ORIEL_TRY_VOID(assign_light_groups(options_.light_groups, prepared_.imported->scene, context_));
-    lights_.emplace(scene());
+    lights_.emplace(scene(), &accel());
     transport_.emplace(accel(), *lights_, path_options(options_));
     warn_about_light(scene(), *lights_, context_);
     foretell_light();

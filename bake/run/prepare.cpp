@@ -98,7 +98,7 @@ Status find_eyes(const BakeOptions& options, Stopwatch& timed, Context& context,
   EyeOptions eyes = options.eyes;
   eyes.walk = prepared.walk;
   ORIEL_TRY(prepared.region, timed("eyes", [&](auto&) { return find_eye_region(*prepared.accel, eyes, context); }));
-  const LightSet lights(prepared.scene());
+  const LightSet lights(prepared.scene(), &*prepared.accel);
   if (options.eyes.source == EyeSource::kWalk)
     ORIEL_TRY_VOID(stand_around_bodies(*prepared.accel, prepared.region, context));
   if (options.eyes.source == EyeSource::kWalk && (!lights.empty() || luminance(prepared.scene().sky) > 0))
@@ -140,7 +140,7 @@ Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatc
   Scene& scene = prepared.imported->scene;
   if (LightSet(scene).empty() && luminance(scene.sky) <= 0) return {};  // nothing is lit
   ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
-              const LightSet lights(scene);
+              const LightSet lights(scene, &*prepared.accel);
               const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, path_options(options).max_bounces);
               const ElapsedTime clock;
               const Interruptible until(

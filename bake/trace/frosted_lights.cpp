@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bake/trace/lights.h"
+#include "bake/trace/sampler.h"
 #include "bake/trace/shading.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kInPlane = 1e-6;      // of the scene's size: a light in a pane's plane shines through it nowhere
 constexpr double kLeastSpread = 1e-3;  // of a light that touches its pane
+constexpr int kProbes = 16;            // of a pane, whether a light shines there: only noise depends on them
 
 // What one pane spreads of a light to a receiver, by points of the pane: as light would be spread that comes from
 // there, to the receiver, about where it would pass straight. Nearer to the light all is as much narrower.
@@ -64,7 +66,7 @@ class SpreadLobe {
 
 }  // namespace
 
-FrostedLights::FrostedLights(const Scene& scene) : scene_(&scene) {
+FrostedLights::FrostedLights(const Scene& scene, const LightSet& lights, const Accel* accel) : scene_(&scene) {
   if (scene.lights.empty()) return;
   panes_ = PlanarMirrors::frosted_panes(scene);
   triangles_ = panes_.triangles_of(scene);
@@ -91,8 +93,9 @@ FrostedLights::FrostedLights(const Scene& scene) : scene_(&scene) {
           afar ? glm::dot(pane.normal, DVec3(light.direction)) + low : -pane.height(DVec3(light.position));
       if (!(behind > (afar ? 0 : in_plane))) continue;
       const double size = std::sqrt(pane.area_m2);
-      const double own = power * pane.area_m2 * (afar ? behind : 1 / (pane.area_m2 + behind * behind + size * behind));
+      double own = power * pane.area_m2 * (afar ? behind : 1 / (pane.area_m2 + behind * behind + size * behind));
       if (!(own > 0)) continue;
+      if (accel) own *= openness({l, m}, lights, *accel);
       of_pane_[m].push_back(ways_.size());
       power_[m].push_back((power_[m].empty() ? 0 : power_[m].back()) + own);
       ways_.push_back({l, m});
@@ -100,8 +103,10 @@ FrostedLights::FrostedLights(const Scene& scene) : scene_(&scene) {
   }
 }
 
-MirroredSample FrostedLights::sample(std::size_t i, const LightSet& lights, const Vec3& p, const Chosen& chosen) const {
+MirroredSample FrostedLights::sample(const LightSet& lights, const Vec3& p, const Chosen& chosen) const {
   MirroredSample sample;
+  const auto [i, choice_weight] = choose(DVec3(p), chosen.way);
+  if (!(choice_weight > 0)) return sample;
   const PlanarMirror& pane = panes_[ways_[i].pane];
   const DVec3 from(p);
   const double height = pane.height(from);
@@ -143,7 +148,7 @@ MirroredSample FrostedLights::sample(std::size_t i, const LightSet& lights, cons
   const float facets = shading.spread_pdf(light.direction);
   const Vec3 passed = surface.shade.transmission *
                       (1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, -Vec3(direction)))));
-  const auto weight = static_cast<float>(facets * leg_cosine / (length * length * per_m2));
+  const auto weight = static_cast<float>(facets * leg_cosine / (length * length * per_m2)) * choice_weight;
   sample.direction = Vec3(direction), sample.group = light.group;
   sample.endless = light.estimate * passed * weight;
   if (!(max_component(sample.endless) > 0)) return sample;
@@ -153,6 +158,36 @@ MirroredSample FrostedLights::sample(std::size_t i, const LightSet& lights, cons
   if (length > margin) add_leg({p, sample.direction, static_cast<float>(length - margin), true, false});
   add_leg({spawn_origin(*scene_, on->triangle, on->barycentric, light.direction), light.direction, light.distance});
   return sample;
+}
+
+FrostedLights::Choice FrostedLights::choose(const DVec3& p, float u) const {
+  thread_local std::vector<double> until;
+  until.clear();
+  double sum = 0;
+  for (std::size_t m = 0; m < panes_.size(); ++m) until.push_back(sum += worth(m, p));
+  if (!(sum > 0)) return {};
+  const std::size_t m = at_or_below(until, u * sum);
+  const double before = m > 0 ? until[m - 1] : 0, of_pane = until[m] - before;
+  if (!(of_pane > 0)) return {};
+  const std::size_t k = at_or_below(power_[m], (u * sum - before) / of_pane * power_[m].back());
+  const double own = (power_[m][k] - (k > 0 ? power_[m][k - 1] : 0)) / power_[m].back() * of_pane;
+  return own > 0 ? Choice{of_pane_[m][k], static_cast<float>(sum / own)} : Choice{};
+}
+
+double FrostedLights::openness(const Way& way, const LightSet& lights, const Accel& accel) const {
+  double seen = 0.5;
+  for (int k = 0; k < kProbes; ++k) {
+    Sampler random(way.light, way.pane, static_cast<std::uint32_t>(k));
+    const auto on = point_by_area(way.pane, random.next2());
+    if (!on) continue;
+    const LightSample light =
+        lights.sample_light(way.light, point_on(*scene_, on->triangle, on->barycentric), random.next2());
+    const Vec3 from = spawn_origin(*scene_, on->triangle, on->barycentric, light.direction);
+    const bool shines = max_component(light.estimate) > 0 &&
+                        max_component(accel.transmittance({from, light.direction, light.distance})) > 0;
+    seen += shines ? 1 : 0;
+  }
+  return seen / (kProbes + 0.5);
 }
 
 double FrostedLights::worth(std::size_t pane, const DVec3& p) const {

@@ -46,7 +46,7 @@ LightSample chosen_with(LightSample s, float probability) {
 
 }  // namespace
 
-LightSet::LightSet(const Scene& scene) : scene_(&scene), mirrored_(scene), frosted_(scene) {
+LightSet::LightSet(const Scene& scene, const Accel* accel) : scene_(&scene), mirrored_(scene) {
   std::vector<BoundedLight> bounds;
   add_triangles(bounds);
   add_lights(bounds);
@@ -55,6 +55,7 @@ LightSet::LightSet(const Scene& scene) : scene_(&scene), mirrored_(scene), frost
   if (!near_.empty()) kinds_.push_back(Kind::kNear);
   if (!directional_.empty()) kinds_.push_back(Kind::kDirectional);
   if (!sky_.empty()) kinds_.push_back(Kind::kSky);
+  frosted_ = FrostedLights(scene, *this, accel);
 }
 
 void LightSet::add_triangles(std::vector<BoundedLight>& bounds) {

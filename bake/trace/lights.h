@@ -35,7 +35,8 @@ struct LightSample {
 // spread of them, which frosted() has: shadow rays to them end at flat frosted panes (Ray::past_frosted).
 class LightSet {
  public:
-  explicit LightSet(const Scene& scene);
+  // With an accelerator of the scene less is lost to lights that frosted panes do not see; only noise depends on it.
+  explicit LightSet(const Scene& scene, const Accel* accel = nullptr);
 
   bool empty() const { return kinds_.empty(); }
   // Emitted power per channel, lm: emissive triangles, point and spot lights. Not the sky, not directional lights.

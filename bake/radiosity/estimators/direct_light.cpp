@@ -29,7 +29,7 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
   UnitLoop loop{.stage = "direct light", .count = (list.size() + kTexelsATask - 1) / kTexelsATask};
   const auto scene_lights = static_cast<std::uint32_t>(t_.accel.scene().lights.size());
   const std::size_t punctual = many_punctual_ ? DirectGroup::kPicks : scene_lights;
-  const std::size_t frosted = 2 * DirectGroup::kFrosted * std::min<std::size_t>(16, t_.lights.frosted().size());
+  const std::size_t frosted = t_.lights.frosted().empty() ? 0 : 2 * DirectGroup::kFrosted;
   loop.rays = static_cast<double>(kTexelsATask * kHalves * (polygons_.size() + punctual + frosted)) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) {
     std::vector<char> apart;
