@@ -40,11 +40,17 @@ void leave_out(std::span<const std::uint32_t> unfinished, Texels& texels) {
   for (int k = 0; k < kDoublings && !pending.empty() && side > 0; ++k, side *= 2) {
     const bool facing = k + 1 < kDoublings;
     in_cell.clear();
-    for (const std::uint32_t i : lit) in_cell.try_emplace(cell_of(texels.sample_points[i][0], side, facing), i);
+    for (const std::uint32_t i : lit) {
+      std::uint32_t& largest = in_cell.try_emplace(cell_of(texels.sample_points[i][0], side, facing), i).first->second;
+      if (texels.area_m2[i] > texels.area_m2[largest]) largest = i;
+    }
     std::erase_if(pending, [&](std::uint32_t i) {
       const auto found = in_cell.find(cell_of(texels.sample_points[i][0], side, facing));
-      if (found != in_cell.end()) texels.nearest[i] = found->second;
-      return found != in_cell.end();
+      if (found == in_cell.end()) return false;
+      // A wall does not show the light of a screw, nor that of a shade a centimetre from its lamp.
+      if (facing && texels.area_m2[found->second] < 0.5f * texels.area_m2[i]) return false;
+      texels.nearest[i] = found->second;
+      return true;
     });
   }
 }
