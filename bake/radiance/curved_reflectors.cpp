@@ -109,7 +109,7 @@ void keep_most_important(std::span<const ReflectorMaterial> materials, bool eyes
                          FoundCurvedReflectors& found) {
   const auto importance = [&](const FoundCurvedReflector& f) {
     const ReflectorMaterial& m = materials[f.reflector.material];
-    return reflectance_at_60_deg(m) * (eyes_known ? double{f.seen.pixels} : f.area_m2) * (1 - m.roughness);
+    return f.reflectance * (eyes_known ? double{f.seen.pixels} : f.area_m2) * (1 - m.roughness);
   };
   auto& list = found.reflectors;
   std::stable_sort(list.begin(), list.end(), [&](const FoundCurvedReflector& a, const FoundCurvedReflector& b) {
@@ -134,7 +134,7 @@ void choose_sizes(std::span<const ReflectorMaterial> materials, bool eyes_known,
     if (eyes_known) {
       const double distance =
           f.seen.inverse_square > 0 ? std::sqrt(f.seen.pixels / f.seen.inverse_square) : kNobodySees_m;
-      size = std::min(size, surround_resolution_for_eyes(f.diagonal_m, distance));
+      size = std::min(size, surround_resolution_for_eyes(f.area_m2, distance));
     }
     found.maps[i].size = size;
     texels += std::uint64_t{size} * size;
@@ -160,8 +160,9 @@ std::uint32_t surround_resolution(float roughness) {
   return roughness <= 0.2f ? 256 : 128;
 }
 
-std::uint32_t surround_resolution_for_eyes(double diagonal_m, double distance_m) {
-  const double texels = 1.8 * kPixelsPerRad * diagonal_m / std::max(distance_m, diagonal_m / 2);
+std::uint32_t surround_resolution_for_eyes(double area_m2, double distance_m) {
+  const double across_m = std::sqrt(area_m2 / kPi);
+  const double texels = 1.8 * kPixelsPerRad * across_m / std::max(distance_m, across_m / 2);
   return std::bit_ceil(std::max(kMinSide, static_cast<std::uint32_t>(texels)));
 }
 
@@ -192,7 +193,7 @@ FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const
       found.reflector.material = surface.material;
       found.reflector.map = static_cast<std::uint32_t>(out.maps.size());
       found.area_m2 = area_of(scene, piece.triangles);
-      found.diagonal_m = glm::length(piece.upper - piece.lower);
+      found.reflectance = reflectance_at_60_deg(materials[surface.material]);
       if (!seen.empty()) found.seen = seen_of(seen, piece.triangles);
       found.triangles = std::move(piece.triangles);
       found.object = static_cast<std::uint32_t>(out.objects.size());

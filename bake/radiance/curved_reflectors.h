@@ -32,7 +32,7 @@ struct FoundCurvedReflector {
   std::vector<std::uint32_t> triangles;  // into Scene::triangles, ascending
   std::uint32_t object = 0;              // into FoundCurvedReflectors::objects
   double area_m2 = 0;
-  double diagonal_m = 0;  // of its bounds
+  float reflectance = 1;  // at 60°
   SeenOfTriangle seen;    // of all of them
   SurroundView view = SurroundView::kOutside;
 };
@@ -53,10 +53,11 @@ struct FoundCurvedReflectors {
 // Texels of a map's side for a lobe of that roughness: a mirror 512, wider lobes fewer.
 std::uint32_t surround_resolution(float roughness);
 
-// Texels of a map's side, a power of two of 32 or more, for a piece of that diagonal seen from that far, m, on a frame
-// of 720 pixels and 60°. A mirroring sphere N pixels across turns the reflected direction by 4/N rad a pixel in its
+// Texels of a map's side, a power of two of 32 or more, for a piece of that area seen from that far, m, on a frame of
+// 720 pixels and 60°. A mirroring sphere N pixels across turns the reflected direction by 4/N rad a pixel in its
 // middle, and a map of S² texels has √(4π)/S rad a texel: S = 0.9 N. Twice that, for pieces half as bent as a sphere.
-std::uint32_t surround_resolution_for_eyes(double diagonal_m, double distance_m);
+// Any piece has the pixels of a sphere of its area (Cauchy): the rim of a pane has few, however long it is.
+std::uint32_t surround_resolution_for_eyes(double area_m2, double distance_m);
 
 // Divides their sides, for trials. Returns the texels that they have then.
 double make_coarser(std::uint32_t divisor, std::vector<SurroundMap>& maps);

@@ -29,7 +29,7 @@ inline constexpr float kSightStep = 1.0f / (1 << 20);
 struct SeenSurface {
   const Hit& hit;
   Vec3 towards_eye{0};   // unit, back along the ray
-  Vec3 throughput{1};    // share of its light that reaches the reflector, coverage included
+  Vec3 throughput{1};    // share of its light that counts, coverage included
   bool mirror = false;   // what it reflects follows, or is too little, and is not to be counted here
   bool emission = true;  // its own light is to be counted; where not, it is an emitter of the reflector's list
   std::uint32_t mirrors_passed = 0;  // on the way, the ray's own reflector not counted

@@ -22,6 +22,7 @@ class SurroundCapture {
                   const OutgoingRadiance& outgoing)
       : scene_(accel.scene()),
         outgoing_(outgoing),
+        reflectance_(reflector.reflectance),
         of_glass_(is_glass(scene_, reflector.triangles.front())),
         rays_(accel, found.objects[reflector.object], found.maps[reflector.reflector.map].centre, reflector.view) {}
 
@@ -33,9 +34,11 @@ class SurroundCapture {
     for (const SurroundSight::Layer& layer : sight.layers) {
       // What glass mirrors of what glass mirrors is a thousandth, but of a bulb too bright for a map's one distance.
       const bool faint = of_glass_ && is_glass(scene_, layer.hit.triangle);
-      radiance +=
-          layer.share *
-          usable_light(outgoing_({.hit = layer.hit, .towards_eye = -direction, .mirror = faint, .rays = &traced_}));
+      radiance += layer.share * usable_light(outgoing_({.hit = layer.hit,
+                                                        .towards_eye = -direction,
+                                                        .throughput = reflectance_ * layer.share,
+                                                        .mirror = faint,
+                                                        .rays = &traced_}));
     }
     if (!sight.ended && sight.valid != 0) radiance += sight.throughput * usable_light(sky_radiance(scene_, direction));
     return sight;
@@ -51,6 +54,7 @@ class SurroundCapture {
  private:
   const Scene& scene_;
   const OutgoingRadiance& outgoing_;
+  float reflectance_;
   bool of_glass_;
   SurroundRays rays_;
   std::uint64_t traced_ = 0;  // by outgoing_
@@ -118,7 +122,8 @@ Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, co
   loop.inputs = [&](std::size_t row, Archive& key) {
     const SurroundMap& map = found.maps[rows[row].x];
     const FoundCurvedReflector& reflector = found.reflectors[rows[row].x];
-    key(map.centre, map.size, rows[row].y, found.objects[reflector.object].triangles, reflector.view);
+    key(map.centre, map.size, rows[row].y, found.objects[reflector.object].triangles, reflector.reflectance,
+        reflector.view);
   };
   loop.compute = [&](std::size_t row) {
     SurroundMap& map = found.maps[rows[row].x];

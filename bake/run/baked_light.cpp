@@ -11,6 +11,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kFewerForMirrors = 8;  // whose rays only scatter where they arrive
+constexpr float kLeastShare = 0.01f;           // of the light: a lobe that adds less is as good as wide
 constexpr int kMostLobes = 8;                  // one after the other: in a closed pipe of metal paths never end
 
 Vec2 uv_at(const Atlas& atlas, std::uint32_t triangle, const Vec2& barycentric) {
@@ -109,10 +110,6 @@ Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {
   return shown_light(baked, seen, surface_at(baked.accel, seen.hit, -seen.towards_eye, seen.width_m), !seen.mirror);
 }
 
-bool traces_lobe(const BakedScene& baked, const SeenSurface& seen) {
-  return shows_lobe(baked, seen, surface_at(baked.accel, seen.hit, -seen.towards_eye, seen.width_m));
-}
-
 OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing) {
   return [&](const SeenSurface& seen) {
     SeenSurface shown = seen;
@@ -121,15 +118,13 @@ OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const Outgoin
   };
 }
 
-std::uint32_t lobe_paths(double pixels) {
-  constexpr double kFewest = 4, kMost = 64, kAll = 8e6;
-  return static_cast<std::uint32_t>(std::clamp(kAll / std::max(pixels, 1.0), kFewest, kMost));
-}
-
 Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
                                std::uint64_t seed, std::uint64_t& rays) {
   const SurfacePoint surface = surface_at(baked.accel, seen.hit, -seen.towards_eye, seen.width_m);
-  if (!shows_lobe(baked, seen, surface)) return shown_light(baked, seen, surface, !seen.mirror);
+  const float share =
+      max_component(seen.throughput * reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye)));
+  if (share < kLeastShare || !shows_lobe(baked, seen, surface)) return shown_light(baked, seen, surface, !seen.mirror);
+  paths = std::max(1u, static_cast<std::uint32_t>(share * static_cast<float>(paths)));
   if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths = std::max(1u, paths / kFewerForMirrors);
   return shown_light(baked, seen, surface, false) + lobe_light(baked, {surface, seen.towards_eye}, paths, seed, rays);
 }

@@ -37,19 +37,14 @@ struct BakedScene {
 Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen);
 
 // The same, but glossy reflectors, and other surfaces that reflect more by their lobe than diffusely, show what that
-// lobe does: its light is traced until it meets diffuse surfaces, the mean of so many paths, of fewer from mirrors. So
-// a mirror shows the highlights in a polished floor and the shine of a dark window frame. Adds to `rays`.
+// lobe does: its light is traced until it meets diffuse surfaces, the mean of so many paths where all of it counts
+// (SeenSurface::throughput times reflectance), of fewer where less, or from mirrors, and as a wide lobe where less than
+// 1 % does. So a mirror shows the highlights in a polished floor and the shine of a dark window frame. Adds to `rays`.
+inline constexpr std::uint32_t kLobePaths = 64;
 Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
                                std::uint64_t seed, std::uint64_t& rays);
 
-// Whether that traces a lobe there.
-bool traces_lobe(const BakedScene& baked, const SeenSurface& seen);
-
 // The light with the lobes of these triangles traced. Both must outlive it.
 OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing);
-
-// So many paths for each of the pixels that trace one: 64, or fewer, down to 4, where there are so many that all maps
-// together would take longer than the lightmap. Neighbours then average what a pixel does not.
-std::uint32_t lobe_paths(double pixels);
 
 }  // namespace oriel

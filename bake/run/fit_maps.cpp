@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "bake/radiance/surround_capture.h"
-#include "bake/run/lobe_share.h"
 
 namespace oriel {
 namespace {
@@ -14,11 +13,10 @@ constexpr double kTriangleBytes = 12;     // of a pack, about: checked and writt
 constexpr double kJudging = 0.3;          // of the seconds of planning: held-out eyes
 
 // What capturing all surround maps takes, by a 64th of their texels.
-Result<double> surround_seconds(const BakedScene& baked, const FoundReflections& all, std::uint32_t paths,
-                                Context& context) {
+Result<double> surround_seconds(const BakedScene& baked, const FoundReflections& all, Context& context) {
   const std::vector<bool> is_shiny = shiny_triangles(baked.accel.scene(), all);
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
+    return baked_radiance_with_lobes(baked, seen, kLobePaths, context.seed, *seen.rays);
   };
   FoundCurvedReflectors curved = all.curved;
   const double texels = make_coarser(1, curved.maps), tried = make_coarser(kTried, curved.maps);
@@ -32,13 +30,10 @@ Result<double> surround_seconds(const BakedScene& baked, const FoundReflections&
 // Captures maps whose sides are divided: what all of them are likely to take.
 Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
   const FoundReflections& all = planned.all;
-  std::uint32_t paths = 1;
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(dark, seen, paths, context.seed, *seen.rays);
+    return baked_radiance_with_lobes(dark, seen, kLobePaths, context.seed, *seen.rays);
   };
   const ReflectedSurroundings surroundings(dark.accel, all.found.reflectors, options.sight);
-  ORIEL_TRY(const LobeShares shares, lobe_shares(dark, surroundings, planned.plan.maps, all, context));
-  paths = lobe_paths(shares.planar * planned.planar_pixels() + shares.surround * planned.surround_pixels());
   std::vector<RadianceMap> maps = planned.plan.maps;
   double pixels = 0;
   for (RadianceMap& map : maps) {
@@ -52,7 +47,7 @@ Status time_capture(const BakeOptions& options, const BakedScene& dark, Context&
     ORIEL_TRY_VOID(capture_maps({surroundings, with_lobes_of(is_curved, outgoing)}, context, maps));
   }
   const double planar_s = clock.spent() * planned.planar_pixels() / std::max(pixels, 1.0);
-  ORIEL_TRY(planned.surround_s, surround_seconds(dark, all, paths, context));
+  ORIEL_TRY(planned.surround_s, surround_seconds(dark, all, context));
   planned.capture_s = planar_s + planned.surround_s + kJudging * planned.seconds;
   return {};
 }

@@ -13,7 +13,6 @@
 #include "bake/run/baked_light.h"
 #include "bake/run/fit_maps.h"
 #include "bake/run/inputs.h"
-#include "bake/run/lobe_share.h"
 
 namespace oriel {
 namespace {
@@ -160,12 +159,28 @@ std::vector<SeenOfTriangle> seen_triangles(const TexelDemand& demand) {
   return seen;
 }
 
+void mark(std::span<const std::uint32_t> triangles, std::vector<bool>& marked) {
+  for (const std::uint32_t t : triangles) marked[t] = true;
+}
+
 // Of the units found so far, what computing them once took, over all threads.
 double reused_s(const Context& context) {
   return context.units ? context.units->share().reused_s : 0;
 }
 
 }  // namespace
+
+std::vector<bool> curved_triangles(const Scene& scene, const FoundReflections& all) {
+  std::vector<bool> marked(scene.triangles.size());
+  mark(all.found.unplanar, marked);
+  return marked;
+}
+
+std::vector<bool> shiny_triangles(const Scene& scene, const FoundReflections& all) {
+  std::vector<bool> marked = curved_triangles(scene, all);
+  for (const FoundReflector& r : all.found.reflectors) mark(r.triangles, marked);
+  return marked;
+}
 
 Result<FoundReflections> find_reflections(const BakeOptions& options, const PreparedScene& prepared,
                                           std::span<const MaterialSummary> materials, double seconds,
@@ -253,9 +268,8 @@ Result<BakedReflections> bake_reflections(const BakeTask& bake, PlannedReflectio
   report.omissions = std::move(omissions);
   if (planned.empty()) return out;
   std::vector<FoundReflector>& reflectors = found.reflectors;
-  std::uint32_t paths = 1;
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
+    return baked_radiance_with_lobes(baked, seen, kLobePaths, context.seed, *seen.rays);
   };
   const std::vector<bool> is_curved = curved_triangles(accel.scene(), planned.all);
   const std::vector<bool> is_shiny = shiny_triangles(accel.scene(), planned.all);
@@ -263,9 +277,7 @@ Result<BakedReflections> bake_reflections(const BakeTask& bake, PlannedReflectio
   if (options.with_material)
     ORIEL_TRY_VOID(leave_out_lamps(bake, lobe_widths(materials), reflectors, out.emitters, report.omissions));
   const ReflectedSurroundings surroundings(accel, reflectors, options.sight);
-  ORIEL_TRY(const LobeShares shares, lobe_shares(baked, surroundings, plan.maps, planned.all, context));
-  paths = lobe_paths(shares.planar * planned.planar_pixels() + shares.surround * planned.surround_pixels());
-  const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
+  const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, kLobePaths);
   std::atomic<std::uint64_t> rays{0};
   const Stage stage{context, &rays};
   const LitSurroundings lit{surroundings, to_planar};

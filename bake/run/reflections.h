@@ -25,6 +25,11 @@ struct FoundReflections {
 Result<FoundReflections> find_reflections(const BakeOptions& options, const PreparedScene& prepared,
                                           std::span<const MaterialSummary> materials, double seconds, Context& context);
 
+// By triangle: the surfaces whose lobes are traced where maps see them. No ray is mirrored by curved things, and those
+// of surround maps by nothing: there planar ones are among them.
+std::vector<bool> curved_triangles(const Scene& scene, const FoundReflections& all);
+std::vector<bool> shiny_triangles(const Scene& scene, const FoundReflections& all);
+
 struct ReflectionReport {
   std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for
   std::vector<ReflectedError> errors;  // by reflector: and how right that is

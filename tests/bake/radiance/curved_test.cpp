@@ -40,9 +40,10 @@ FoundCurvedReflectors captured(const test::MirrorRoom& room, FoundCurvedReflecto
 }
 
 TEST(CurvedReflectors, MapsAreAsFineAsEyesCanTell) {
-  EXPECT_EQ(surround_resolution_for_eyes(0.1, 2), 64u);  // 34 pixels across
-  EXPECT_EQ(surround_resolution_for_eyes(0.1, 100), 32u);
-  EXPECT_GE(surround_resolution_for_eyes(0.1, 0), 2048u);  // an eye at the thing
+  constexpr double kBall_m2 = kPi * 0.1 * 0.1;
+  EXPECT_EQ(surround_resolution_for_eyes(kBall_m2, 2), 64u);  // 34 pixels across
+  EXPECT_EQ(surround_resolution_for_eyes(kBall_m2, 100), 32u);
+  EXPECT_GE(surround_resolution_for_eyes(kBall_m2, 0), 2048u);  // an eye at the thing
   const BallRoom room;
   const auto accel = Accel::build(room.scene);
   ASSERT_TRUE(accel);
@@ -51,7 +52,7 @@ TEST(CurvedReflectors, MapsAreAsFineAsEyesCanTell) {
   for (const std::uint32_t t : flat.unplanar) seen[t] = {1, 1 / (20.0f * 20.0f)};
   const auto far = find_curved_reflectors(room.scene, flat.unplanar, room.materials(), seen);
   ASSERT_EQ(far.maps.size(), 1u);
-  EXPECT_EQ(far.maps[0].size, surround_resolution_for_eyes(far.reflectors[0].diagonal_m, 20));
+  EXPECT_EQ(far.maps[0].size, surround_resolution_for_eyes(far.reflectors[0].area_m2, 20));
   EXPECT_LT(far.maps[0].size, find(room).maps[0].size);
 }
 
@@ -107,6 +108,55 @@ TEST(CurvedReflectors, LargeOnesAreCutSmallOnesLeftOutAndTheMostImportantKept) {
   ASSERT_EQ(few.reflectors.size(), 1u);
   EXPECT_EQ(few.maps[0].size, 256u);
   EXPECT_THAT(texts_of(few.omitted), Contains(HasSubstr("less important than the 1")));
+}
+
+// The rim of a pane, bent at its corners: 2.4 m by 1.2 m, and 5 mm wide. A ball of that diagonal would have 512².
+TEST(CurvedReflectors, ThinOnesHaveCoarseMapsHoweverLongTheyAre) {
+  test::MirrorRoom room;
+  test::SceneParts parts;
+  parts.scene() = std::move(room.scene);
+  std::vector<Vec3> positions, normals;
+  std::vector<UVec3> triangles;
+  constexpr std::uint32_t kAround = 32;
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    const float a = static_cast<float>(i) * 2 * static_cast<float>(kPi) / kAround;
+    for (const float z : {3.0f, 3.005f}) {
+      positions.push_back(Vec3(2 + 1.2f * std::cos(a), 1.5f + 0.6f * std::sin(a), z));
+      normals.push_back(Vec3(std::cos(a), std::sin(a), 0));
+    }
+    const std::uint32_t a0 = 2 * i, b0 = 2 * ((i + 1) % kAround);
+    triangles.insert(triangles.end(), {UVec3(a0, b0, a0 + 1), UVec3(a0 + 1, b0, b0 + 1)});
+  }
+  parts.mesh("rim", 0, positions, normals, triangles);
+  room.scene = parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const auto flat = find_reflectors(*accel, room.materials(), room.reflector_options());
+  const std::vector<SeenOfTriangle> seen(room.scene.triangles.size(), {1, 1});
+  const auto found = find_curved_reflectors(room.scene, flat.unplanar, room.materials(), seen, {.max_pieces = 1});
+  ASSERT_EQ(found.maps.size(), 1u);
+  EXPECT_EQ(found.maps[0].size, 128u);
+}
+
+TEST(Surroundings, TellWhatCountsOfALight) {
+  const BallRoom room(1);
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  FoundCurvedReflectors found = find(room);
+  ASSERT_EQ(found.reflectors.size(), 1u);
+  EXPECT_EQ(found.reflectors[0].reflectance, reflectance_at_60_deg(room.materials()[0]));
+  found.reflectors[0].reflectance = 0.25f;
+  found.maps[0].size = 8;
+  Context context;
+  std::atomic<int> asked{0}, others{0};
+  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
+    ++asked;
+    others += seen.throughput != Vec3(0.25f);
+    return Vec3(1);
+  };
+  ASSERT_TRUE(capture_surroundings(*accel, found, outgoing, context));
+  EXPECT_EQ(asked, 64);
+  EXPECT_EQ(others, 0);
 }
 
 TEST(Surroundings, AreThoseOfTheClosedForm) {

@@ -53,6 +53,31 @@ TEST(BakedLight, LobesShowTheirReflectanceInAnEvenRoom) {
   }
 }
 
+// What a reflector hardly shows of a lobe needs few paths, and below 1 % of the light none.
+TEST(BakedLight, LobesHavePathsByWhatCountsOfThem) {
+  const EvenRoom room(0.35f);
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const LightSet lights(room.scene);
+  const BakedScene baked{*accel, lights, room.atlas, room.pages};
+  const Hit hit = accel->intersect({{2, 1.5f, 1}, {0, 0, -1}});
+  ASSERT_TRUE(hit);
+  SeenSurface seen{hit, Vec3(0, 0, 1)};
+  seen.glossy = true;
+  const float wide = baked_radiance(baked, seen).g;  // even light shows 3.5 cd/m², its irradiance 1
+  std::vector<double> rays;
+  for (const float counts : {1.0f, 0.25f, 0.0112f, 0.011f}) {
+    seen.throughput = Vec3(counts);
+    std::uint64_t traced = 0;
+    const float shown = baked_radiance_with_lobes(baked, seen, 4096, 7, traced).g;
+    EXPECT_NEAR(shown, traced > 0 ? 3.5f * wide : wide, 0.03f * 3.5f) << counts;
+    rays.push_back(static_cast<double>(traced));
+  }
+  EXPECT_NEAR(rays[1], rays[0] / 4, 0.02 * rays[0]);
+  EXPECT_GT(rays[2], 0);
+  EXPECT_EQ(rays[3], 0);
+}
+
 // Planar ones that are followed add nothing of their lobe, those at the end of a chain show it as wide: R E/π.
 TEST(BakedLight, PlanarMirrorsTraceNothing) {
   const EvenRoom room(0);
@@ -86,7 +111,7 @@ TEST(BakedLight, SurfacesThatMostlyShineShowTheirLobe) {
     const ShadePoint point = shade_point(room.scene, room.scene.triangles.size() - 1, Vec2(0.3f));
     const float r = reflectance(point, 1).g, diffuse = point.diffuse.g * (1 - r);
     std::uint64_t rays = 0;
-    const float shown = baked_radiance_with_lobes(baked, SeenSurface{hit, Vec3(0, 0, 1)}, 4096, 7, rays).g;
+    const float shown = baked_radiance_with_lobes(baked, SeenSurface{hit, Vec3(0, 0, 1)}, 100000, 7, rays).g;
     EXPECT_NEAR(shown, shines ? diffuse + 3.5f * r : diffuse + r, shines ? 0.05f * 3.5f * r : 1e-4f) << shines;
     EXPECT_EQ(rays > 0, shines);
   }
