@@ -12,6 +12,7 @@
 #include "bake/trace/punctual.h"
 #include "bake/trace/sampler.h"
 #include "formats/core/color.h"
+#include "formats/core/convex_hull.h"
 
 namespace oriel {
 
@@ -124,14 +125,28 @@ class TileLister {
     return off - std::asin(reach / distance) > double{light.outer_cone_rad};
   }
 
-  // How many of the square's texels are the chart's.
-  std::uint32_t covered(const UVec2& lower, std::uint32_t side) const {
-    std::uint32_t count = 0;
+  // Whether a texel of the square is the chart's.
+  bool is_covered(const UVec2& lower, std::uint32_t side) const {
     const std::uint32_t width = scene_.map[chart_.page].width, height = scene_.map[chart_.page].height;
     for (std::uint32_t y = lower.y; y < std::min(lower.y + side, height); ++y)
       for (std::uint32_t x = lower.x; x < std::min(lower.x + side, width); ++x)
-        count += chart_at_[std::size_t{y} * width + x] == chart_number_;
-    return count;
+        if (chart_at_[std::size_t{y} * width + x] == chart_number_) return true;
+    return false;
+  }
+
+  // Whether the chart has a surface there.
+  bool is_on_chart(const DVec2& at) const {
+    const TexelMapPage& page = scene_.map[chart_.page];
+    if (!(at.x >= 0 && at.y >= 0 && at.x < page.width && at.y < page.height)) return false;
+    const std::uint32_t texel = static_cast<std::uint32_t>(at.y) * page.width + static_cast<std::uint32_t>(at.x);
+    if (chart_at_[texel] != chart_number_) return false;
+    const auto i = static_cast<std::size_t>(std::ranges::lower_bound(page.texel, texel) - page.texel.begin());
+    for (std::uint32_t f = page.first[i]; f < page.first[i + 1]; ++f) {
+      const auto [a, b, c] = texel_triangle(scene_.atlas, page.fragments[f].triangle);
+      const double ab = cross2(b - a, at - a), bc = cross2(c - b, at - b), ca = cross2(a - c, at - c);
+      if (std::min({ab, bc, ca}) >= 0 || std::max({ab, bc, ca}) <= 0) return true;
+    }
+    return false;
   }
 
   // Settles what it can in a square of whole texels and goes on in its quarters.
@@ -139,9 +154,7 @@ class TileLister {
             TileRecords& records) {
     const auto side = static_cast<std::uint32_t>(square.side);
     const UVec2 lower(square.lower);
-    const std::uint32_t texels = covered(lower, side);
-    if (texels == 0) return;
-    whole_ = side == 1 || texels == side * side;
+    if (!is_covered(lower, side)) return;
     if (side == 1) {
       SharpRecord record;
       for (const int splits : {kMostSharpSplits, kFilterSplits, 2, 1, 0}) {
@@ -219,10 +232,9 @@ class TileLister {
       edges_of_filters = edges_of_filters || (near && casters_.is_filter(t));
     }
     if (!edges) {
-      // Rays from beyond the chart's end tell nothing of it: they may start in a wall that meets it there.
-      if (!whole_) return {Light::kOpen, {}, std::move(shine.casters)};
       const Rays few = rays_to(square, lamp.lamp, kFewRays);
-      if (few.even) return arrived(lamp.lamp, few.mean);
+      if (few.beyond && splits <= most_splits_) return {Light::kOpen, {}, std::move(shine.casters)};
+      if (few.even()) return arrived(lamp.lamp, few.mean);
       edges = edges_of_filters = true;
     }
     const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits + 1);
@@ -245,7 +257,11 @@ class TileLister {
     if (!filters) return true;
     shine.tint = rays_to(square, shine.lamp, kRays).most;
     if (shine.tint == Vec3(0)) return false;
-    list_opaque(shine);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < shine.casters.size(); ++i)
+      if (!casters_.is_filter(shine.casters[i]))
+        shine.casters[kept] = shine.casters[i], shine.edges[kept++] = shine.edges[i];
+    shine.casters.resize(kept), shine.edges.resize(kept);
     return true;
   }
 
@@ -263,24 +279,14 @@ class TileLister {
       }
     if (!fit.is_soft()) return std::nullopt;
     const Rays rays = rays_to(square, shine.lamp, kFitSide, kWider);
+    if (rays.dim) return std::nullopt;
+    if (rays.sum == 0) return Look{};
     std::bitset<kFitRays> lit;
-    for (std::size_t i = 0; i < kFitRays; ++i) {
-      if (is_dim(rays, i)) return std::nullopt;
-      lit[i] = rays.lit[i] > 0;
-    }
-    if (lit.none()) return Look{};
+    for (std::size_t i = 0; i < kFitRays; ++i) lit[i] = rays.lit[i] > 0;
     std::optional<std::vector<Screen>> screens = fit.fit(rays.rays, lit);
     if (!screens) return std::nullopt;
-    const Vec3 tint = rays.mean / (static_cast<float>(lit.count()) / static_cast<float>(kFitRays));
+    const Vec3 tint = rays.mean * static_cast<float>(kFitRays / rays.sum);
     return Look{Light::kSettled, {shine.lamp, tint, {}, {}, std::move(*screens)}, {}};
-  }
-
-  void list_opaque(LampShine& shine) const {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < shine.casters.size(); ++i)
-      if (!casters_.is_filter(shine.casters[i]))
-        shine.casters[kept] = shine.casters[i], shine.edges[kept++] = shine.edges[i];
-    shine.casters.resize(kept), shine.edges.resize(kept);
   }
 
   // One triangle just over the square in place of too many: its shadow's edge is the straight line that parts what rays
@@ -289,34 +295,26 @@ class TileLister {
   std::optional<Look> screened(const Square& square, std::uint32_t lamp, std::uint32_t most) {
     const Rays rays = rays_to(square, lamp, kRaysOfEdge);
     const auto share = [&] { return most < rays.lit.size() ? std::nullopt : std::optional(arrived(lamp, rays.mean)); };
-    std::vector<float> lit = rays.lit;
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-      if (is_dim(rays, i)) return arrived(lamp, rays.mean);
-      lit[i] = lit[i] > 0 ? 1.0f : 0.0f;
-    }
+    if (rays.dim || rays.even()) return arrived(lamp, rays.mean);
     DVec2 of_lit(0), of_dark(0);
-    double sum = 0;
-    for (std::uint32_t k = 0; k < lit.size(); ++k)
-      of_lit += double{lit[k]} * ray_place(k, kRaysOfEdge), of_dark += (1 - double{lit[k]}) * ray_place(k, kRaysOfEdge),
-          sum += double{lit[k]};
-    const auto count = static_cast<double>(lit.size());
-    if (!(sum > 0.5)) return Look{};
-    if (sum > count - 0.5) return arrived(lamp, rays.mean);
-    const DVec2 across = of_lit / sum - of_dark / (count - sum);
+    for (std::size_t k = 0; k < rays.lit.size(); ++k)
+      of_lit += rays.lit[k] * rays.places[k], of_dark += (1 - rays.lit[k]) * rays.places[k];
+    const auto count = static_cast<double>(rays.lit.size());
+    const DVec2 across = of_lit / rays.sum - of_dark / (count - rays.sum);
     if (glm::length(across) < kParted) return share();
     const DVec2 towards = glm::normalize(across), along(-towards.y, towards.x);
     std::vector<double> at;
-    for (std::uint32_t k = 0; k < lit.size(); ++k) at.push_back(glm::dot(towards, ray_place(k, kRaysOfEdge) - 0.5));
+    for (const DVec2& place : rays.places) at.push_back(glm::dot(towards, place - 0.5));
     std::ranges::sort(at);
-    const auto dark = std::min(static_cast<std::size_t>(count - sum), at.size() - 1);
+    const auto dark = std::min(static_cast<std::size_t>(count - rays.sum), at.size() - 1);
     const DVec2 edge = 0.5 + towards * (0.5 * (at[dark - (dark > 0)] + at[dark]));
     std::uint32_t astray = 0;
-    for (std::uint32_t k = 0; k < lit.size(); ++k)
-      astray += (glm::dot(towards, ray_place(k, kRaysOfEdge) - edge) > 0) != (lit[k] > 0) ? 1 : 0;
+    for (std::size_t k = 0; k < rays.lit.size(); ++k)
+      astray += (glm::dot(towards, rays.places[k] - edge) > 0) != (rays.lit[k] > 0) ? 1 : 0;
     if (astray > most) return std::nullopt;
     const BeamTriangle corners{over(square, edge - kScreen * along, lamp), over(square, edge + kScreen * along, lamp),
                                over(square, edge - 2 * kScreen * towards, lamp)};
-    return Look{Light::kSettled, {lamp, rays.mean * static_cast<float>(count / sum), {}, {}, {{corners, 1}}}, {}};
+    return Look{Light::kSettled, {lamp, rays.mean * static_cast<float>(count / rays.sum), {}, {}, {{corners, 1}}}, {}};
   }
 
   // A place of a square, its sides being 1, on the way from there to the lamp, just over the chart.
@@ -335,25 +333,31 @@ class TileLister {
   // The share of a lamp's light that arrives in a square, by so many rays a side.
   struct Rays {
     Vec3 mean{0}, most{0};
-    std::vector<float> lit;  // by ray
-    bool even = true;        // all pass or none does
     std::vector<Ray> rays;
+    std::vector<DVec2> places;  // in the square, its sides being 1
+    std::vector<double> lit;    // by ray: 1, or 0; what a pane lets through is lit, too
+    double sum = 0;             // of `lit`
+    bool dim = false;           // of some rays so little arrives that they are neither lit nor dark
+    bool beyond = false;        // no place of them is the chart's
+    bool even() const { return sum == 0 || sum == static_cast<double>(lit.size()); }
   };
-  // Neither lit nor dark. What a pane lets through is lit, too.
-  static bool is_dim(const Rays& rays, std::size_t i) {
-    return rays.lit[i] > 0 && rays.lit[i] < kLitShare * luminance(rays.most);
-  }
-  static DVec2 ray_place(std::uint32_t k, std::uint32_t side) {
-    return (DVec2(k % side, k / side) + 0.5) / double(side);
-  }
-  // wider: how many times the square and a sun's disk are as wide.
+  // From the chart where it can: rays from beyond its end tell nothing of it, they may start in a wall that meets it
+  // there. wider: how many times the square and a sun's disk are as wide.
   Rays rays_to(const Square& square, std::uint32_t lamp, std::uint32_t side, double wider = 1) {
     const oriel::Light& light = light_of(lamp);
-    std::vector<Ray> rays;
+    Rays out;
+    std::vector<DVec2> places;
     for (std::uint32_t k = 0; k < side * side; ++k) {
-      const DVec2 within = 0.5 + wider * (ray_place(k, side) - 0.5);
+      places.push_back(0.5 + wider * ((DVec2(k % side, k / side) + 0.5) / double(side) - 0.5));
+      if (is_on_chart(square.lower + square.side * places[k])) out.places.push_back(places[k]);
+    }
+    out.beyond = out.places.empty();
+    if (out.beyond) out.places = places;
+    for (std::size_t k = 0; out.places.size() < places.size(); ++k) out.places.push_back(out.places[k]);
+    std::vector<Ray>& rays = out.rays;
+    for (std::uint32_t k = 0; k < out.places.size(); ++k) {
       Ray ray;
-      const Vec3 at(chart_.at(square.lower + square.side * within) + 8 * level_ * chart_.normal);
+      const Vec3 at(chart_.at(square.lower + square.side * out.places[k]) + 8 * level_ * chart_.normal);
       ray.origin = offset_origin(at, Vec3(chart_.normal), max_component(glm::abs(at)));
       ray.past_frosted = false;
       if (light.type == LightType::kDirectional) {
@@ -371,14 +375,13 @@ class TileLister {
     std::vector<Vec3> passed(rays.size());
     scene_.transport.accel.transmittance(rays, passed);
     rays_ += rays.size();
-    Rays out;
-    out.rays = rays;
-    for (const Vec3& light_passed : passed) {
-      out.mean += light_passed / static_cast<float>(rays.size());
-      out.most = glm::max(out.most, light_passed);
-      out.lit.push_back(luminance(light_passed));
-      out.even = out.even && (max_component(light_passed) > 0) == (max_component(passed[0]) > 0);
+    for (const Vec3& share : passed) {
+      out.mean += share / static_cast<float>(rays.size());
+      out.most = glm::max(out.most, share);
+      out.sum += out.lit.emplace_back(max_component(share) > 0 ? 1 : 0);
     }
+    for (const Vec3& share : passed)
+      out.dim = out.dim || (max_component(share) > 0 && luminance(share) < kLitShare * luminance(out.most));
     return out;
   }
 
@@ -390,7 +393,6 @@ class TileLister {
   const std::vector<std::uint32_t>& chart_at_;  // of the page, by texel
   double level_;
   int most_splits_ = kMostSharpSplits;
-  bool whole_ = true;  // the square that is looked at is all the chart's
   std::uint64_t rays_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "bake/trace/punctual.h"
 #include "formats/assets/sharp_light.h"
 #include "formats/core/color.h"
+#include "formats/core/convex_hull.h"
 
 namespace oriel {
 namespace {
@@ -30,22 +31,15 @@ std::uint32_t even_steps(std::span<const float> angles, float range) {
   return 0;
 }
 
-std::array<DVec2, 3> texel_corners(const Atlas& atlas, std::uint32_t triangle) {
-  const AtlasPage& page = atlas.pages[static_cast<std::size_t>(atlas.page[triangle])];
-  std::array<DVec2, 3> corners;
-  for (std::size_t k = 0; k < 3; ++k) corners[k] = DVec2(atlas.uv[triangle][k]) * DVec2(page.width, page.height);
-  return corners;
-}
-
 // The grid that a triangle spans; not flat where it has no area on the page.
 ChartGrid grid_of(const Scene& scene, const Atlas& atlas, std::uint32_t triangle) {
   ChartGrid chart;
   chart.page = static_cast<std::uint32_t>(atlas.page[triangle]);
-  const auto [a, b, c] = texel_corners(atlas, triangle);
+  const auto [a, b, c] = texel_triangle(atlas, triangle);
   const UVec3& v = scene.triangles[triangle];
   const DVec3 p(scene.positions[v.x]), pb = DVec3(scene.positions[v.y]) - p, pc = DVec3(scene.positions[v.z]) - p;
   const DVec2 ab = b - a, ac = c - a;
-  const double area = ab.x * ac.y - ab.y * ac.x;
+  const double area = cross2(ab, ac);
   chart.flat = std::abs(area) > 1e-12;
   if (!chart.flat) return chart;
   chart.along_x = (ac.y * pb - ab.y * pc) / area;
@@ -58,13 +52,13 @@ ChartGrid grid_of(const Scene& scene, const Atlas& atlas, std::uint32_t triangle
 }
 
 double texel_area2(const Atlas& atlas, std::uint32_t triangle) {
-  const auto [a, b, c] = texel_corners(atlas, triangle);
-  return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+  const auto [a, b, c] = texel_triangle(atlas, triangle);
+  return std::abs(cross2(b - a, c - a));
 }
 
 void add_to_chart(const Scene& scene, const Atlas& atlas, std::uint32_t triangle, ChartGrid& chart) {
   const double off = kOffGrid * std::max(glm::length(chart.along_x), glm::length(chart.along_y));
-  const auto corners = texel_corners(atlas, triangle);
+  const auto corners = texel_triangle(atlas, triangle);
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t vertex = scene.triangles[triangle][static_cast<int>(k)];
     const DVec3 away = chart.at(corners[k]) - DVec3(scene.positions[vertex]);

@@ -271,6 +271,21 @@ TEST(SharpLight, OfAPaneEndsAtItsFrame) {
   }
 }
 
+// Treads of a fraction of a texel, that end at the next riser: rays from beyond start behind it, where all is dark.
+TEST(SharpLight, OfNarrowStepsIsThatOfTheirSurface) {
+  SceneParts parts;
+  const auto matt = parts.diffuse(Vec3(0.5f));
+  for (int k = 0; k < 16; ++k) {
+    const float z = -0.03125f * static_cast<float>(k), y = 0.125f * static_cast<float>(k);
+    parts.quad("riser", matt, {-1, y, z}, {2, 0, 0}, {0, 0.125f, 0});
+    parts.quad("tread", matt, {-1, y + 0.125f, z}, {2, 0, 0}, {0, 0, -0.03125f});
+  }
+  parts.scene().lights = {sun_along({0.1f, -1, -0.3f}, 0)};
+  const LookedAt found = look_at(test::bake(parts.finish(), 0.2f, sharp_options()), 1, 0.01);
+  EXPECT_GT(found.lit, 100);
+  EXPECT_EQ(found.wrong, 0) << "of " << found.points << ", worst " << found.worst;
+}
+
 // A lattice of holes of 5 cm, whose sun is as coarse as an eighth of a texel.
 TEST(SharpLight, OfALatticeIsThatOfItsHoles) {
   SceneParts parts;

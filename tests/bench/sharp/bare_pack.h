@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bake/trace/accel.h"
+#include "formats/core/disjoint_sets.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {
@@ -16,7 +17,7 @@ struct BarePack {
   const Pack& full;
   Pack pack;
   std::vector<std::int32_t> page;    // by triangle of the mesh
-  std::vector<std::uint32_t> plane;  // likewise: numbers of planes that have a page in common
+  std::vector<std::uint32_t> plane;  // likewise: numbers of planes that have a chart in common
   Scene scene;
 
   explicit BarePack(const Pack& of) : full(of) {
@@ -48,14 +49,22 @@ struct BarePack {
     scene.lower = scene.upper = scene.positions.at(0);
     for (const Vec3& p : scene.positions)
       scene.lower = glm::min(scene.lower, p), scene.upper = glm::max(scene.upper, p);
+    // What lies in one plane may be flat or part of something curved, whose lamps are in texels.
+    DisjointSets charts(page.size());
+    std::map<std::array<float, 3>, std::uint32_t> corners;
+    for (std::uint32_t t = 0; t < page.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const Vec2& at = pack.mesh.lightmap_uvs[scene.triangles[t][k]];
+        charts.join(t, corners.try_emplace({static_cast<float>(page[t]), at.x, at.y}, t).first->second);
+      }
     std::map<std::array<int, 5>, std::uint32_t> planes;
     for (std::uint32_t t = 0; t < page.size(); ++t) {
       const Vec3 n = geometric_normal(scene, t);
       const float off = glm::dot(n, scene.positions[scene.triangles[t].x]);
       const auto rounded = [](float v, float by) { return static_cast<int>(std::lround(v / by)); };
       plane.push_back(planes
-                          .try_emplace({page[t], rounded(n.x, 0.01f), rounded(n.y, 0.01f), rounded(n.z, 0.01f),
-                                        rounded(off, 0.002f)},
+                          .try_emplace({static_cast<int>(charts.root(t)), rounded(n.x, 0.01f), rounded(n.y, 0.01f),
+                                        rounded(n.z, 0.01f), rounded(off, 0.002f)},
                                        static_cast<std::uint32_t>(planes.size()))
                           .first->second);
     }

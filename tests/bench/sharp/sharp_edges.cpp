@@ -292,7 +292,7 @@ bool EdgeBench::shows_one_surface(int x, int y) {
 
 void EdgeBench::add_wrong(const Eye& eye, const Edges& right, LampSum& sum) {
   std::size_t wrong = 0;
-  Vec2 where(0);
+  Vec3 where(0);
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
       const Pixel& p = at(x, y);
@@ -300,13 +300,16 @@ void EdgeBench::add_wrong(const Eye& eye, const Edges& right, LampSum& sum) {
       if (p.right > 0.02f && p.right < 0.98f) ++sum.soft, sum.squares += (p.shown - p.right) * (p.shown - p.right);
       if ((p.shown > kLit) == (p.right > kLit) || std::abs(p.shown - p.right) < kSharp) continue;
       if (!shows_one_surface(x, y) || nearest(right, Vec2(x, y), {x, y}, std::nullopt) <= kOff) continue;
-      ++(p.shown > kLit ? sum.lit_in_shadow : sum.dark_in_light), ++wrong, where = Vec2(x, y);
+      ++(p.shown > kLit ? sum.lit_in_shadow : sum.dark_in_light), ++wrong, where = p.position;
     }
   if (wrong <= sum.worst_count) return;
   sum.worst_count = wrong;
-  sum.worst = fmt::format("{} from ({:.3f} {:.3f} {:.3f}) along ({:.3f} {:.3f} {:.3f}): {}, the last at {} {}",
-                          eye.camera.name, eye.camera.eye.x, eye.camera.eye.y, eye.camera.eye.z, eye.camera.forward.x,
-                          eye.camera.forward.y, eye.camera.forward.z, wrong, where.x, where.y);
+  const auto in_world = [&](const Vec3& p) {
+    const DVec3 w = DVec3(p) + bare_.scene.origin;
+    return fmt::format("{:.3f},{:.3f},{:.3f}", w.x, w.y, w.z);
+  };
+  sum.worst =
+      fmt::format("{} from {}: {}, the last at {}", eye.camera.name, in_world(eye.camera.eye), wrong, in_world(where));
 }
 
 Status EdgeBench::write_picture() {
