@@ -157,7 +157,13 @@ class PathTracer {
     (mirrored_ && from.lamp ? light.lamps : light.scattered) += throughput_ * from.light;
     record(t_, mirrored_ && from.lamp ? PathGroups::kLamps : PathGroups::kScattered, from.group, from.direction,
            throughput_ * from.light);
-    add_mirrored(surface, shading, bounce, light);
+    sample_virtual(
+        {t_, sampler_, rays_, !eyes_}, surface, t_.options.max_bounces - bounce - 1,
+        [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
+        [&](const Vec3&, std::uint32_t group, const Vec3& other) {
+          light.scattered += throughput_ * other;
+          if (t_.grouped) t_.grouped->add(PathGroups::kScattered, group, throughput_ * other);
+        });
     const float u = sampler_.next1();
     const auto sample = shading.sample(u, sampler_.next2());
     if (!sample) return Step::kEnd;
@@ -184,29 +190,12 @@ class PathTracer {
   // Panes behind the first one let what shines on it pass straight, and have no glow of their own.
   Vec3 glow(const SurfacePoint& pane, const Shading& shading) {
     if (std::exchange(spread_, true)) return Vec3(0);
-    const Vec3 light = throughput_ * sample_behind({t_, sampler_, rays_}, pane, shading);
-    return light;
+    return throughput_ * sample_behind({t_, sampler_, rays_}, pane, shading);
   }
 
   // Beyond a glossy lobe light sampling stands in for a part of what is met, and looks straight through.
   bool sees_frosted(const SurfacePoint& surface) const {
     return eyes_ && t_.options.frosted_panes && !(pdf_ > 0) && is_frosted_pane(surface.shade);
-  }
-
-  void add_mirrored(const SurfacePoint& surface, const Shading& shading, int bounce, PathLight& light) {
-    sample_mirrored(
-        {t_, sampler_, rays_}, surface, t_.options.max_bounces - bounce - 1,
-        [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
-        [&](const Vec3&, std::uint32_t group, const Vec3& from) {
-          light.scattered += throughput_ * from;
-          if (t_.grouped) t_.grouped->add(PathGroups::kScattered, group, throughput_ * from);
-        });
-    sample_frosted(
-        {t_, sampler_, rays_}, surface, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
-        [&](const Vec3&, std::uint32_t group, const Vec3& from) {
-          light.scattered += throughput_ * from;
-          if (t_.grouped) t_.grouped->add(PathGroups::kScattered, group, throughput_ * from);
-        });
   }
 
   bool survive() {
@@ -241,17 +230,11 @@ PathLight reflect_light(const Tracing& by, const SurfacePoint& surface, const Ve
   const FromEmitter from = sample_lights_bsdf(by, surface, shading);
   (on_diffuse && from.lamp ? light.lamps : light.scattered) += from.light;
   record(t, from.lamp ? PathGroups::kLamps : PathGroups::kScattered, from.group, from.direction, from.light);
-  sample_mirrored(
+  sample_virtual(
       by, surface, t.options.max_bounces - 1, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
-      [&](const Vec3&, std::uint32_t group, const Vec3& mirrored) {
-        light.scattered += mirrored;
-        if (t.grouped) t.grouped->add(PathGroups::kScattered, group, mirrored);
-      });
-  sample_frosted(
-      by, surface, [&](const Vec3& wi, bool punctual) { return shading.eval(wi, punctual); },
-      [&](const Vec3&, std::uint32_t group, const Vec3& frosted) {
-        light.scattered += frosted;
-        if (t.grouped) t.grouped->add(PathGroups::kScattered, group, frosted);
+      [&](const Vec3&, std::uint32_t group, const Vec3& other) {
+        light.scattered += other;
+        if (t.grouped) t.grouped->add(PathGroups::kScattered, group, other);
       });
   const float u = sampler.next1();
   const auto sample = shading.sample(u, sampler.next2());
@@ -310,7 +293,7 @@ PathLight specular_light(const Transport& t, const ReflectingPoint& seen, Sample
                          const OnDiffuse& on_diffuse) {
   SurfacePoint specular = seen.surface;
   specular.shade.diffuse = specular.shade.transmission = Vec3(0);
-  return reflect_light({t, sampler, rays}, specular, seen.wo, &on_diffuse);
+  return reflect_light({t, sampler, rays, true}, specular, seen.wo, &on_diffuse);
 }
 
 IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surface, Sampler& sampler,
@@ -339,18 +322,12 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
                  density)
                  .light;
   if (directional && light_cosine > 0) add_moments(s.direct / light_cosine, towards);
-  sample_mirrored(
+  sample_virtual(
       by, surface, t.options.max_bounces,
-      [&](const Vec3& wi, bool punctual) { return Vec3(shading.cosine(wi, punctual)); },
-      [&](const Vec3& from, std::uint32_t, const Vec3& mirrored) {
-        s.direct += mirrored;
-        if (directional) add_moments(mirrored / shading.cosine(from, true), from);
-      });
-  sample_frosted(
-      by, surface, [&](const Vec3& wi, bool punctual) { return Vec3(shading.cosine(wi, punctual)); },
-      [&](const Vec3& from, std::uint32_t, const Vec3& frosted) {
-        s.direct += frosted;
-        if (directional) add_moments(frosted / shading.cosine(from), from);
+      [&](const Vec3& wi, bool punctual) { return Vec3(light_cosine = shading.cosine(wi, punctual)); },
+      [&](const Vec3& from, std::uint32_t, const Vec3& other) {
+        s.direct += other;
+        if (directional) add_moments(other / light_cosine, from);
       });
   const Vec2 u = sampler.next2();
   const Vec3 direction = shading.above(directional ? square_to_linear_hemisphere(u) : square_to_cosine_hemisphere(u));

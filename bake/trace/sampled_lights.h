@@ -13,6 +13,7 @@ struct Tracing {
   const Transport& transport;
   Sampler& sampler;
   std::uint64_t& rays;
+  bool one = false;  // of the lights in mirrors one is asked, which stands for all, and of those behind frosted panes
 };
 
 inline float balance(float pdf, float other) {
@@ -77,46 +78,41 @@ inline Vec3 sample_behind(const Tracing& by, const SurfacePoint& pane, const Sha
   return value * t.accel.transmittance({origin, light.direction, light.distance});
 }
 
-// Adds what light by way of mirrors or a pane becomes of `value`, if its legs pass. add(direction, group, light).
-template <class Add>
-void add_by_legs(const Tracing& by, const SurfacePoint& surface, MirroredSample& light, const Vec3& value,
-                 const Add& add) {
+// The same of lights in mirrors, which no other strategy finds, by way of so many at most, and of lights that frosted
+// panes spread. add(direction, group, light).
+template <class Reflect, class Add>
+void sample_virtual(const Tracing& by, const SurfacePoint& surface, int most_mirrors, const Reflect& reflect,
+                    const Add& add) {
   const Transport& t = by.transport;
-  if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
-  if (!is_usable(value) || max_component(value) <= 0) return;
-  light.leg[0] = leaving(receiver_of(surface), light.leg[0]);
-  const Vec3 passed = value * t.accel.transmittance_of_all(light.rays(), by.rays);
-  if (max_component(passed) > 0) add(light.direction, light.group, passed);
-}
-
-// The same of lights in mirrors, which no other strategy finds, by way of so many at most.
-template <class Reflect, class Add>
-void sample_mirrored(const Tracing& by, const SurfacePoint& surface, int most_mirrors, const Reflect& reflect,
-                     const Add& add) {
-  const VirtualLights& mirrored = by.transport.lights.mirrored();
-  if (mirrored.empty()) return;
+  Sampler& sampler = by.sampler;
+  const VirtualLights& mirrored = t.lights.mirrored();
+  const FrostedLights& frosted = t.lights.frosted();
+  if (mirrored.empty() && frosted.empty()) return;
   const Receiver receiver = receiver_of(surface);
-  const float u = by.sampler.next1();
-  const Vec2 v = by.sampler.next2();
-  mirrored.choose(u, [&](std::size_t i, float weight) {
-    if (mirrored[i].order > most_mirrors || !mirrored[i].may_reach(DVec3(receiver.position), 0)) return;
-    MirroredSample light = mirrored.sample(i, by.transport.lights, receiver.position, v);
-    if (light.legs > 0 && incidence(receiver, light.direction, true) > 0)
-      add_by_legs(by, surface, light, weight * light.endless * light.share * reflect(light.direction, true), add);
-  });
-}
-
-// The same of lights that frosted panes spread.
-template <class Reflect, class Add>
-void sample_frosted(const Tracing& by, const SurfacePoint& surface, const Reflect& reflect, const Add& add) {
-  const LightSet& lights = by.transport.lights;
-  if (lights.frosted().empty()) return;
-  const Receiver receiver = receiver_of(surface);
-  const float way = by.sampler.next1();
-  const Vec2 of_light = by.sampler.next2();
-  MirroredSample light = lights.frosted().sample(lights, receiver.position, {way, of_light, by.sampler.next2()});
-  if (light.legs > 0 && incidence(receiver, light.direction) > 0)
-    add_by_legs(by, surface, light, light.endless * reflect(light.direction, false), add);
+  const auto arrive = [&](MirroredSample light, float weight, bool punctual) {
+    if (light.legs == 0 || !(incidence(receiver, light.direction, punctual) > 0)) return;
+    light.leg[0] = leaving(receiver, light.leg[0]);
+    Vec3 value = weight * light.endless * light.share * reflect(light.direction, punctual);
+    if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
+    if (!is_usable(value) || max_component(value) <= 0) return;
+    value *= t.accel.transmittance_of_all(light.rays(), by.rays);
+    if (max_component(value) > 0) add(light.direction, light.group, value);
+  };
+  if (!mirrored.empty()) {
+    const float u = sampler.next1();
+    const Vec2 v = sampler.next2();
+    const float of = by.one ? static_cast<float>(std::min(mirrored.size(), VirtualLights::kVisited)) : 1;
+    float left = by.one ? std::floor(of * sampler.next1()) : 0;
+    mirrored.choose(u, [&](std::size_t i, float weight) {
+      if (of > 1 && left-- != 0) return;
+      if (mirrored[i].order > most_mirrors || !mirrored[i].may_reach(DVec3(receiver.position), 0)) return;
+      arrive(mirrored.sample(i, t.lights, receiver.position, v), of * weight, true);
+    });
+  }
+  if (frosted.empty()) return;
+  const float way = sampler.next1();
+  const Vec2 of_light = sampler.next2();
+  arrive(frosted.sample(t.lights, receiver.position, {way, of_light, sampler.next2()}), 1, false);
 }
 
 }  // namespace oriel

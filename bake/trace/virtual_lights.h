@@ -62,6 +62,7 @@ class VirtualLights {
  public:
   static constexpr std::size_t kMost = 256;
   static constexpr double kLeast = 1e-6;
+  static constexpr std::size_t kVisited = 16;  // of more, so many are chosen by their flux
 
   VirtualLights() = default;
   explicit VirtualLights(const Scene& scene);
@@ -93,8 +94,6 @@ class VirtualLights {
   }
 
  private:
-  static constexpr std::size_t kVisited = 16;  // of more, so many are chosen by their flux
-
   const Scene* scene_ = nullptr;
   PlanarMirrors mirrors_;
   std::vector<VirtualLight> lights_;

@@ -59,6 +59,30 @@ TEST(VirtualLights, ASunOnAFloorMirrorLightsTheCeiling) {
   EXPECT_EQ(meter.at({shift, 3, 0.501f}, {0, -1, 0}), DVec3(0));
 }
 
+// Eight lamps in one place bring what one of eight times the light does, and a path asks one of their images.
+TEST(VirtualLights, APathAsksOneForAll) {
+  constexpr std::uint32_t kPaths = 4096;
+  std::array<double, 2> light{}, rays{};
+  for (const std::size_t many : {0, 1}) {
+    SceneParts parts = floor_mirror();
+    parts.quad("ceiling", parts.diffuse(Vec3(0.5f)), {-9, 3, -9}, {18, 0, 0}, {0, 0, 18});
+    parts.quad("sensor", parts.diffuse(Vec3(0)), {1.6f, 2, 1.6f}, {0, 0, 1}, {1, 0, 0});
+    for (int i = 0; i < (many ? 8 : 1); ++i) parts.scene().lights.push_back(point_light({0, 1, 0}, many ? 10 : 80));
+    const Scene scene = parts.finish();
+    const Accel accel = *Accel::build(scene);
+    const LightSet lights(scene);
+    const SurfacePoint sensor = point_on_side(accel, 4, Vec2(1.0f / 3), true);
+    std::uint64_t traced = 0;
+    for (std::uint32_t k = 0; k < kPaths; ++k) {
+      Sampler sampler(1, 0, k);
+      light[many] += sample_irradiance({accel, lights, {.max_bounces = 2}}, sensor, sampler, traced).indirect.g;
+    }
+    rays[many] = static_cast<double>(traced) / kPaths;
+  }
+  EXPECT_NEAR(light[1] / light[0], 1, 0.05);
+  EXPECT_NEAR(rays[1] / rays[0], 1, 0.1);
+}
+
 TEST(VirtualLights, ASunsDiskBlursThePatchAndKeepsItsLight) {
   SceneParts parts = floor_mirror();
   parts.scene().lights = {sun_at(90)};
