@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <map>
 #include <numeric>
 
+#include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
-#include "bake/trace/view_samples.h"
+#include "bake/scene/shade.h"
+#include "bake/trace/shading.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
 
@@ -16,12 +17,12 @@ namespace {
 
 constexpr double kLit = 0.01;  // of the other side's mean: above it a side is lit
 // Points of a part, one path from each of their sides: enough to find light that one path in a hundred meets. Fewer
-// where there are so many parts that all of them together would exceed kAllPoints; never less than kFewPoints.
-constexpr std::size_t kRaysAPoint = 10;  // on both sides, about
-constexpr std::size_t kPoints = 256, kFewPoints = 8, kFirstPoints = 2, kAllPoints = std::size_t{1} << 17;
+// where all parts together would exceed kAllPoints; kMeanPoints, that tell its mean, where a side is lit or seen.
+constexpr std::size_t kPoints = 256, kMeanPoints = 8, kAllPoints = std::size_t{1} << 16;
+constexpr std::size_t kRaysAPoint = 10, kSightLines = 1024;  // on both sides, about; of an eye
 constexpr std::size_t kMostPatches = 4096;
 constexpr double kFinestCells = 256;  // cells of patches, across the scene
-constexpr int kMostBounces = 6;       // light with more bounces is dim compared with the other side's
+constexpr int kMostBounces = 3;       // light with more bounces is dim compared with the other side's
 
 // The double-sided triangles, part by part.
 struct Parts {
@@ -132,35 +133,60 @@ Parts in_patches(const Scene& scene, Parts parts) {
   return out;
 }
 
-// The light on one side of a part, and its visibility to views.
+// The light on one side of a part, and whether an eye sees it.
 struct SideLight {
   double sum = 0, max = 0;
+  std::size_t points = 0;
   bool seen = false;
 
   void add(double light) {
     sum += light;
     max = std::max(max, light);
+    ++points;
   }
-  bool is_lit_against(const SideLight& other, std::size_t points) const {
-    return max > kLit * other.sum / static_cast<double>(points);
+  bool counts_against(const SideLight& other) const {
+    return seen || max > kLit * other.sum / static_cast<double>(other.points);
   }
 };
+
+// By triangle, whether an eye sees its front and its back, by way of panes and cut-outs too.
+using SeenSides = std::vector<std::array<std::atomic<bool>, 2>>;
+
+// What time leaves undone is told by the light alone.
+void find_seen(const Accel& accel, std::span<const Vec3> eyes, const Stage& stage, SeenSides& seen) {
+  (void)parallel_for(stage, "", eyes.size(), [&](std::size_t e) {
+    for (std::uint32_t k = 0; k < kSightLines; ++k) {
+      Ray ray{eyes[e], square_to_sphere(Sampler(mix64(stage.context.seed), e, k).next2())};
+      for (int passes = 0; passes < kMaxPasses; ++passes) {
+        const Hit hit = accel.intersect(ray);
+        if (!hit) break;
+        seen[hit.triangle][hit.front ? 0 : 1] = true;
+        if (!may_transmit(accel.scene().material_of(hit.triangle))) break;
+        ray.origin = spawn_origin(accel.scene(), hit.triangle, hit.barycentric, ray.direction);
+      }
+    }
+    stage.count(kSightLines);
+  });
+}
 
 // Parameters of lit_sides().
 struct SideProbe {
   const Transport& transport;
-  const ViewSamples& views;
+  const SeenSides& seen;
   std::size_t points = 0;  // of each part
   std::uint64_t seed = 0;
 };
 
 LitSides lit_sides(const SideProbe& probe, std::span<const std::uint32_t> part, std::uint64_t& rays) {
-  const auto& [t, views, points, seed] = probe;
+  const auto& [t, seen, points, seed] = probe;
   const Scene& scene = t.accel.scene();
   std::vector<double> area_until;
   double total = 0;
-  for (const std::uint32_t triangle : part) area_until.push_back(total += triangle_area(scene, triangle));
   SideLight front, back;
+  for (const std::uint32_t triangle : part) {
+    area_until.push_back(total += triangle_area(scene, triangle));
+    front.seen |= seen[triangle][0], back.seen |= seen[triangle][1];
+  }
   for (std::size_t k = 0; k < points; ++k) {
     Sampler sampler(mix64(seed), part.front(), static_cast<std::uint32_t>(k));
     const double area = sampler.next1() * total;
@@ -168,44 +194,40 @@ LitSides lit_sides(const SideProbe& probe, std::span<const std::uint32_t> part, 
     const std::uint32_t triangle = part[std::min<std::size_t>(at, part.size() - 1)];
     const Vec2 barycentric = square_to_triangle(sampler.next2());
     for (SideLight* side : {&front, &back}) {
+      if (k >= kMeanPoints && side->counts_against(side == &front ? back : front)) continue;
       const SurfacePoint point = point_on_side(t.accel, triangle, barycentric, side == &front);
       Sampler own = sampler;
       const IrradianceSample e = sample_irradiance(t, point, own, rays);
       side->add(luminance(e.direct + e.indirect));
-      if (side->seen || !views.any()) continue;
-      ViewSamples::Nearest nearest;
-      const Vec3& normal = point.geometric_normal;
-      side->seen = views.in_sight(spawn_origin(point, normal), normal, nearest, rays);
     }
-    // Stops early: a side that is lit by the points so far stays lit.
-    if (k + 1 >= kFirstPoints && std::has_single_bit(k + 1) && front.is_lit_against(back, k + 1) &&
-        back.is_lit_against(front, k + 1))
-      return LitSides::kBoth;
+    if (front.counts_against(back) && back.counts_against(front)) return LitSides::kBoth;
   }
-  if (!back.seen && !back.is_lit_against(front, points)) return LitSides::kFront;
-  return front.seen || front.is_lit_against(back, points) ? LitSides::kBoth : LitSides::kBack;
+  if (!back.counts_against(front)) return LitSides::kFront;
+  return front.counts_against(back) ? LitSides::kBoth : LitSides::kBack;
 }
 
 }  // namespace
 
 Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Vec3> eyes, Context& context) {
-  const ViewSamples views(transport, eyes);
   const Hash128 where = context.units ? hash_of(std::vector<Vec3>(eyes.begin(), eyes.end())) : Hash128();
   const Parts parts = in_patches(transport.accel.scene(), find_parts(transport.accel.scene()));
-  const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kFewPoints, kPoints);
+  const std::size_t points = std::min(kAllPoints / std::max<std::size_t>(1, parts.count()), kPoints);
   Transport short_paths = transport;
   short_paths.options.max_bounces = std::min(transport.options.max_bounces, kMostBounces);
   std::vector<LitSides> of_part(parts.count(), LitSides::kBoth);
   std::atomic<std::uint64_t> rays{0};
+  const Stage stage{context, &rays};
+  SeenSides seen(transport.accel.scene().triangles.size());
+  find_seen(transport.accel, eyes, stage, seen);
   UnitLoop loop{.stage = "sides", .count = parts.count(), .rays = static_cast<double>(points * kRaysAPoint)};
   loop.inputs = [&](std::size_t i, Archive& key) { key(i, where); };
   loop.compute = [&](std::size_t i) {
     std::uint64_t traced = 0;
-    of_part[i] = lit_sides({short_paths, views, points, context.seed}, parts.of(i), traced);
+    of_part[i] = lit_sides({short_paths, seen, points, context.seed}, parts.of(i), traced);
     return traced;
   };
   loop.results = [&](std::size_t i, Archive& archive) { archive(of_part[i]); };
-  if (const Status evaluated = parallel_units({context, &rays}, loop); !evaluated && context.stop)
+  if (const Status evaluated = parallel_units(stage, loop); !evaluated && context.stop)
     return tl::unexpected(evaluated.error());
   FoundSides found;
   found.sides.assign(transport.accel.scene().triangles.size(), LitSides::kFront);

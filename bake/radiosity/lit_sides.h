@@ -21,8 +21,8 @@ struct FoundSides {
 
 // Classifies every connected part (by vertex indices) of double-sided surfaces, except unlit ones, by paths from points
 // on both sides. Of thousands of parts, the small ones are grouped in patches, which count as one part. A side counts
-// as lit if one of its points gets more than 1 % of the other side's mean, or if one of the nearest views (eyes: scene
-// space, m) sees it, since few paths may miss the light of small visible parts. A part with no lit side is kFront, and
+// as lit if one of its points gets more than 1 % of the other side's mean, or if a line of sight from an eye (scene
+// space, m) meets it, since few paths may miss the light of small visible parts. A part with no lit side is kFront, and
 // so is a closed body with a dark inside. Parts not classified before an Interruptible ends are kBoth. Stage name
 // "sides"; error kStopped.
 Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Vec3> eyes, Context& context);
