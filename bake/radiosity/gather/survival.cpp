@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kTexels = 4096;
+constexpr std::size_t kTexels = 1024;
 constexpr std::uint32_t kRays = 32;             // a texel
 constexpr float kPathCost = 4;                  // cost of a path through layers, in rays
 constexpr double kFloor = 0.5;                  // of the mean light: the least light of a texel
