@@ -218,7 +218,7 @@ Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Ve
   std::atomic<std::uint64_t> rays{0};
   const Stage stage{context, &rays};
   SeenSides seen(transport.accel.scene().triangles.size());
-  find_seen(transport.accel, eyes, stage, seen);
+  if (parts.count() > 0) find_seen(transport.accel, eyes, stage, seen);
   UnitLoop loop{.stage = "sides", .count = parts.count(), .rays = static_cast<double>(points * kRaysAPoint)};
   loop.inputs = [&](std::size_t i, Archive& key) { key(i, where); };
   loop.compute = [&](std::size_t i) {

@@ -24,12 +24,12 @@ void add_sun(SceneParts& parts, const Vec3& direction) {
   parts.scene().lights.push_back(sun);
 }
 
-FoundSides find(const Scene& scene, int threads = 0) {
+FoundSides find(const Scene& scene, int threads = 0, std::span<const Vec3> eyes = {}) {
   Context context;
   context.threads = threads;
   const Accel accel = *Accel::build(scene);
   const LightSet lights(scene);
-  return *find_lit_sides({accel, lights, {}}, {}, context);
+  return *find_lit_sides({accel, lights, {}}, eyes, context);
 }
 
 // The double-sided surfaces of a scene with light on those sides.
@@ -129,6 +129,13 @@ TEST(LitSides, OfOneSidedUnlitAndClosedSurfacesStayAsTheyAre) {
   parts.quad("one-sided", parts.diffuse(Vec3(0.5f)), {6, 0, 0}, {1, 0, 0}, {0, 1, 0});
   parts.scene().sky = Vec3(1);
   EXPECT_FALSE(find(parts.finish()).change_scene());
+}
+
+TEST(LitSides, OfOneSidedSurfacesTakeNoRay) {
+  SceneParts parts;
+  parts.quad("one-sided", parts.diffuse(Vec3(0.5f)), {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  parts.scene().sky = Vec3(1);
+  EXPECT_EQ(find(parts.finish(), 0, {{Vec3(0, 0, 1)}}).report.rays, 0u);
 }
 
 TEST(SplitSides, KeepsEachPartApart) {
