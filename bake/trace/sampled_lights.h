@@ -13,7 +13,7 @@ struct Tracing {
   const Transport& transport;
   Sampler& sampler;
   std::uint64_t& rays;
-  bool one = false;  // of the lights in mirrors one is asked, which stands for all, and of those behind frosted panes
+  bool one = false;  // of the lights in mirrors one is asked, which stands for all
 };
 
 inline float balance(float pdf, float other) {
