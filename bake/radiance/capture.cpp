@@ -1,6 +1,7 @@
 #include "bake/radiance/capture.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bake/radiance/reproject.h"
 #include "bake/scene/sky.h"
@@ -16,7 +17,8 @@ Vec3 usable_light(const Vec3& c) {
 SeenLight see(const LitSurroundings& lit, std::uint32_t reflector, const Vec3& from, const Vec3& direction,
               const Cone& cone) {
   const auto& [surroundings, outgoing] = lit;
-  const auto& emitters = surroundings.reflectors()[reflector].emitters;
+  const FoundReflector& mirror = surroundings.reflectors()[reflector];
+  const auto& emitters = mirror.emitters;
   SeenLight seen;
   std::uint64_t lobe_rays = 0;
   const auto add = [&](SeenSurface surface) {
@@ -24,7 +26,8 @@ SeenLight see(const LitSurroundings& lit, std::uint32_t reflector, const Vec3& f
     // The closed form shows the lamp itself; its images in other mirrors are here alone.
     surface.emission =
         surface.mirrors_passed > 0 || !std::binary_search(emitters.begin(), emitters.end(), surface.hit.triangle);
-    seen.radiance += surface.throughput * usable_light(outgoing(surface));
+    const Vec3 share = std::exchange(surface.throughput, mirror.reflectance * surface.throughput);
+    seen.radiance += share * usable_light(outgoing(surface));
     return true;
   };
   seen.sight = surroundings.look(reflector, from, direction, add, cone);

@@ -8,7 +8,8 @@
 
 namespace oriel {
 
-// Radiance (cd/m²) that a surface sends back along the ray, without regard to its throughput. Called from any thread.
+// Radiance (cd/m²) that a surface sends back along the ray, without regard to its throughput, which here is the share
+// of it that the reflector sends on. Called from any thread.
 using OutgoingRadiance = std::function<Vec3(const SeenSurface&)>;
 
 // What rays from reflectors see, and its light.

@@ -193,7 +193,9 @@ FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const
       found.reflector.material = surface.material;
       found.reflector.map = static_cast<std::uint32_t>(out.maps.size());
       found.area_m2 = area_of(scene, piece.triangles);
-      found.reflectance = reflectance_at_60_deg(materials[surface.material]);
+      const ReflectorMaterial& material = materials[surface.material];
+      found.reflectance = reflectance_at_60_deg(material);
+      found.alpha = material.roughness * material.roughness;
       if (!seen.empty()) found.seen = seen_of(seen, piece.triangles);
       found.triangles = std::move(piece.triangles);
       found.object = static_cast<std::uint32_t>(out.objects.size());

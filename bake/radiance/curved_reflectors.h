@@ -33,6 +33,7 @@ struct FoundCurvedReflector {
   std::uint32_t object = 0;              // into FoundCurvedReflectors::objects
   double area_m2 = 0;
   float reflectance = 1;  // at 60°
+  float alpha = 0;        // of its lobe
   SeenOfTriangle seen;    // of all of them
   SurroundView view = SurroundView::kOutside;
 };

@@ -29,13 +29,14 @@ inline constexpr float kSightStep = 1.0f / (1 << 20);
 struct SeenSurface {
   const Hit& hit;
   Vec3 towards_eye{0};   // unit, back along the ray
-  Vec3 throughput{1};    // share of its light that counts, coverage included
+  Vec3 throughput{1};    // share of its light that reaches the reflector, coverage included
   bool mirror = false;   // what it reflects follows, or is too little, and is not to be counted here
   bool emission = true;  // its own light is to be counted; where not, it is an emitter of the reflector's list
   std::uint32_t mirrors_passed = 0;  // on the way, the ray's own reflector not counted
   bool planar = false;               // of a planar reflector
   bool glossy = false;  // its lobe is too wide to be followed but narrow enough that what it shows depends on the eye
   float width_m = 0;    // of the ray's cone there: what a pixel shows of it. 0: a point
+  float averaged = 1;   // so many looks like it the frame shows the mean of
   std::uint64_t* rays = nullptr;  // rays that finding its light traces are added to it; may be null
 };
 

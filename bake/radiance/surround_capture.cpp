@@ -1,5 +1,6 @@
 #include "bake/radiance/surround_capture.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "bake/jobs/units.h"
@@ -16,6 +17,10 @@ constexpr double kRaysARow = 2048;        // about
 constexpr std::uint32_t kSunPoints = 64;  // of a disk
 constexpr float kBeforeLight = 1e-4f;     // of its distance: what holds a light does not hide it
 
+float texels_of(const SurroundMap& map) {
+  return static_cast<float>(map.size) * static_cast<float>(map.size);
+}
+
 class SurroundCapture {
  public:
   SurroundCapture(const Accel& accel, const FoundCurvedReflectors& found, const FoundCurvedReflector& reflector,
@@ -23,6 +28,7 @@ class SurroundCapture {
       : scene_(accel.scene()),
         outgoing_(outgoing),
         reflectance_(reflector.reflectance),
+        lobe_texels_(reflector.alpha * reflector.alpha * texels_of(found.maps[reflector.reflector.map])),
         of_glass_(is_glass(scene_, reflector.triangles.front())),
         rays_(accel, found.objects[reflector.object], found.maps[reflector.reflector.map].centre, reflector.view) {}
 
@@ -38,6 +44,7 @@ class SurroundCapture {
                                                         .towards_eye = -direction,
                                                         .throughput = reflectance_ * layer.share,
                                                         .mirror = faint,
+                                                        .averaged = std::max(1.0f, lobe_texels_),
                                                         .rays = &traced_}));
     }
     if (!sight.ended && sight.valid != 0) radiance += sight.throughput * usable_light(sky_radiance(scene_, direction));
@@ -55,6 +62,7 @@ class SurroundCapture {
   const Scene& scene_;
   const OutgoingRadiance& outgoing_;
   float reflectance_;
+  float lobe_texels_;  // of 4π sr in all: a lobe has 4πα²
   bool of_glass_;
   SurroundRays rays_;
   std::uint64_t traced_ = 0;  // by outgoing_
@@ -123,7 +131,7 @@ Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, co
     const SurroundMap& map = found.maps[rows[row].x];
     const FoundCurvedReflector& reflector = found.reflectors[rows[row].x];
     key(map.centre, map.size, rows[row].y, found.objects[reflector.object].triangles, reflector.reflectance,
-        reflector.view);
+        reflector.alpha, reflector.view);
   };
   loop.compute = [&](std::size_t row) {
     SurroundMap& map = found.maps[rows[row].x];

@@ -124,7 +124,7 @@ Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen,
   const float share =
       max_component(seen.throughput * reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye)));
   if (share < kLeastShare || !shows_lobe(baked, seen, surface)) return shown_light(baked, seen, surface, !seen.mirror);
-  paths = std::max(1u, static_cast<std::uint32_t>(share * static_cast<float>(paths)));
+  paths = std::max(1u, static_cast<std::uint32_t>(share * static_cast<float>(paths) / seen.averaged));
   if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths = std::max(1u, paths / kFewerForMirrors);
   return shown_light(baked, seen, surface, false) + lobe_light(baked, {surface, seen.towards_eye}, paths, seed, rays);
 }

@@ -38,8 +38,9 @@ Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen);
 
 // The same, but glossy reflectors, and other surfaces that reflect more by their lobe than diffusely, show what that
 // lobe does: its light is traced until it meets diffuse surfaces, the mean of so many paths where all of it counts
-// (SeenSurface::throughput times reflectance), of fewer where less, or from mirrors, and as a wide lobe where less than
-// 1 % does. So a mirror shows the highlights in a polished floor and the shine of a dark window frame. Adds to `rays`.
+// (SeenSurface::throughput times reflectance), of fewer where less, or from mirrors, or where others are averaged with
+// it, and as a wide lobe where less than 1 % counts. So a mirror shows the highlights in a polished floor and the shine
+// of a dark window frame. Adds to `rays`.
 inline constexpr std::uint32_t kLobePaths = 64;
 Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
                                std::uint64_t seed, std::uint64_t& rays);

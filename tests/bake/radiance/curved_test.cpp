@@ -146,12 +146,13 @@ TEST(Surroundings, TellWhatCountsOfALight) {
   ASSERT_EQ(found.reflectors.size(), 1u);
   EXPECT_EQ(found.reflectors[0].reflectance, reflectance_at_60_deg(room.materials()[0]));
   found.reflectors[0].reflectance = 0.25f;
+  found.reflectors[0].alpha = 0.5f;
   found.maps[0].size = 8;
   Context context;
   std::atomic<int> asked{0}, others{0};
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     ++asked;
-    others += seen.throughput != Vec3(0.25f);
+    others += seen.throughput != Vec3(0.25f) || seen.averaged != 16;
     return Vec3(1);
   };
   ASSERT_TRUE(capture_surroundings(*accel, found, outgoing, context));

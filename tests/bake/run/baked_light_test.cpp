@@ -76,6 +76,11 @@ TEST(BakedLight, LobesHavePathsByWhatCountsOfThem) {
   EXPECT_NEAR(rays[1], rays[0] / 4, 0.02 * rays[0]);
   EXPECT_GT(rays[2], 0);
   EXPECT_EQ(rays[3], 0);
+  seen.throughput = Vec3(1);
+  seen.averaged = 16;
+  std::uint64_t traced = 0;
+  baked_radiance_with_lobes(baked, seen, 4096, 7, traced);
+  EXPECT_NEAR(static_cast<double>(traced), rays[0] / 16, 0.01 * rays[0]);
 }
 
 // Planar ones that are followed add nothing of their lobe, those at the end of a chain show it as wide: R E/π.
