@@ -6,10 +6,9 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kMostAreas = 4, kMostSides = 4;  // that stand for all that is in the way; of one
+constexpr std::size_t kMostAreas = 4;        // that stand for all that is in the way
 constexpr std::size_t kMostCandidates = 64;  // sides to choose from: with more, smaller squares have fewer each
 constexpr double kSoft = 4;                  // penumbrae that a square may be wide: of 16 rays across several meet each
-constexpr double kHalfEdge = 4;              // of a screen, in radii of the beam
 
 struct ScreenCorner {
   DVec2 at{0};
@@ -87,7 +86,7 @@ std::optional<std::vector<Screen>> ScreenFit::fit(std::span<const Ray> rays, con
       Area area{sides[first]};
       Rays covered = in[first];
       double depth = sides[first].depth;
-      while ((covered & lit).any() && area.size() < kMostSides) {
+      while ((covered & lit).any()) {
         const auto off = [&](const Rays& c) { return (c & lit).count() + (left & ~c).count(); };
         const auto next = std::ranges::min_element(in, {}, [&](const Rays& side) { return off(covered & side); });
         if (off(covered & *next) >= off(covered)) break;
@@ -108,7 +107,7 @@ std::optional<std::vector<Screen>> ScreenFit::fit(std::span<const Ray> rays, con
 
 void ScreenFit::add_screens(const Area& area, double depth, std::vector<Screen>& out) const {
   const DVec2 inwards = area[0].inwards, along(inwards.y, -inwards.x), edge = area[0].off * inwards;
-  const double half = kHalfEdge * (reach_ + tangent_ * depth);
+  const double half = kScreen * (reach_ + tangent_ * depth);
   std::vector<ScreenCorner> polygon{{edge - half * along, true}, {edge + half * along}, {edge + 2 * half * inwards}};
   for (std::size_t k = 1; k < area.size(); ++k) polygon = clipped(polygon, area[k].inwards, area[k].off);
   const auto place = [&](const ScreenCorner& c) { return middle_ + depth * towards_ + c.at.x * u_ + c.at.y * v_; };

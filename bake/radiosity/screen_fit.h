@@ -11,6 +11,7 @@
 namespace oriel {
 
 inline constexpr std::uint32_t kFitSide = 16, kFitRays = kFitSide * kFitSide;  // from a square of places
+inline constexpr double kScreen = 4;  // half a screen's edge, in radii of the beam or sides of the square
 
 // A triangle that stands for others, and by bit k whether their shadow ends at its edge from corner k to k + 1.
 struct Screen {

@@ -19,7 +19,7 @@ namespace oriel {
 inline constexpr std::uint32_t kTile = 16;  // texels a side, that are looked at together first
 inline constexpr std::size_t kListed = 4,
                              kListedAtLast = 16;   // triangles for one lamp: with more, quarters have fewer each
-inline constexpr std::size_t kMostOfTexel = 1024;  // words: with more it is made again with fewer quarters
+inline constexpr std::size_t kMostOfTexel = 2048;  // words: with more it is made again with fewer quarters
 inline constexpr int kFilterSplits = 3;            // from eighths of a texel on rays find edges of cut-outs and panes
 inline constexpr std::uint32_t kFewRays = 2, kRays = 4;  // a side
 inline constexpr std::uint32_t kRaysOfEdge = 8;          // a side, that a screen's edge is fitted to
@@ -27,7 +27,7 @@ inline constexpr double kWider = 1.25;    // squares and suns in which casters a
 inline constexpr float kLitShare = 0.5f;  // of the most that arrives: less is neither lit nor dark
 inline constexpr double kParted = 0.4;  // of a square: from the middle of what is lit to that of what is dark, half for
                                         // an edge, a third for a penumbra
-inline constexpr double kScreen = 4, kOver = 8;  // half a screen's edge in squares; its height in levels
+inline constexpr double kOver = 8;      // height of a screen over a square, in levels
 
 // A square of texels or of a part of one, in texels of the chart's page.
 struct Square {
@@ -157,8 +157,7 @@ class TileLister {
     if (!is_covered(lower, side)) return;
     if (side == 1) {
       SharpRecord record;
-      for (const int splits : {kMostSharpSplits, kFilterSplits, 2, 1, 0}) {
-        most_splits_ = splits;
+      for (most_splits_ = kMostSharpSplits; most_splits_ >= 0; --most_splits_) {
         record = part(square, 0, lamps, settled);
         if (record.words() <= kMostOfTexel) break;
       }
@@ -213,7 +212,8 @@ class TileLister {
     for (const std::uint32_t t : lamp.casters)
       if (beam.may_meet(casters_.triangle(t))) shine.casters.push_back(t);
     if (shine.casters.empty()) return {Light::kSettled, std::move(shine), {}};
-    bool edges = false, edges_of_filters = false, filters = false, patterned = false;
+    bool edges = false, rims = false, filters = false, patterned = false;
+    std::size_t opaque = 0;
     for (const std::uint32_t t : shine.casters) {
       const BeamTriangle& triangle = casters_.triangle(t);
       if (!casters_.is_filter(t) && beam.is_blocked_by(triangle)) return {};
@@ -229,33 +229,32 @@ class TileLister {
       edges = edges || near;
       filters = filters || casters_.is_filter(t);
       patterned = patterned || casters_.is_patterned(t);
-      edges_of_filters = edges_of_filters || (near && casters_.is_filter(t));
+      rims = rims || (near && casters_.is_filter(t));
+      opaque += casters_.is_filter(t) ? 0 : 1;
     }
     if (!edges) {
       const Rays few = rays_to(square, lamp.lamp, kFewRays);
       if (few.beyond && splits <= most_splits_) return {Light::kOpen, {}, std::move(shine.casters)};
-      if (few.even()) return arrived(lamp.lamp, few.mean);
-      edges = edges_of_filters = true;
+      if (few.even()) return arrived(lamp.lamp, few.mean());
     }
-    const bool last = splits > most_splits_ || (edges_of_filters && splits > kFilterSplits + 1);
-    const auto is_list = [&](std::size_t most) {
-      return splits > 0 && !edges_of_filters && shine.casters.size() <= most;
-    };
+    // Within an eighth of a texel a pane's rim is a share of the tint of what is listed.
+    rims = rims && (patterned || splits <= kFilterSplits);
+    const bool last = splits > most_splits_ || (rims && splits > kFilterSplits + 1);
+    const auto is_list = [&](std::size_t most) { return splits > 0 && !rims && opaque <= most; };
     if (is_list(kListed) && list(square, filters, shine)) return {Light::kSettled, std::move(shine), {}};
     if (splits > 0 && !patterned)
       if (std::optional<Look> fit = fitted(square, beam, shine)) return std::move(*fit);
-    // Half a row of rays may be wrong: a bend needs no finer squares.
-    if (!last && edges_of_filters && splits > kFilterSplits)
-      if (std::optional<Look> parted = screened(square, lamp.lamp, kRaysOfEdge / 2)) return std::move(*parted);
+    if (!last && rims && splits > kFilterSplits)
+      if (std::optional<Look> parted = screened(square, lamp.lamp, false)) return std::move(*parted);
     if (!last) return {Light::kOpen, {}, std::move(shine.casters)};
     if (is_list(kListedAtLast) && list(square, filters, shine)) return {Light::kSettled, std::move(shine), {}};
-    return *screened(square, lamp.lamp, kRaysOfEdge * kRaysOfEdge);
+    return *screened(square, lamp.lamp, true);
   }
 
   // Whether light comes past what is opaque of it; panes that reach beyond the square become its tint.
   bool list(const Square& square, bool filters, LampShine& shine) {
     if (!filters) return true;
-    shine.tint = rays_to(square, shine.lamp, kRays).most;
+    shine.tint = rays_to(square, shine.lamp, kRays).tint();
     if (shine.tint == Vec3(0)) return false;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < shine.casters.size(); ++i)
@@ -282,39 +281,37 @@ class TileLister {
     if (rays.dim) return std::nullopt;
     if (rays.sum == 0) return Look{};
     std::bitset<kFitRays> lit;
-    for (std::size_t i = 0; i < kFitRays; ++i) lit[i] = rays.lit[i] > 0;
+    for (std::size_t i = 0; i < kFitRays; ++i) lit[i] = i >= rays.lit.size() || rays.lit[i] > 0;
     std::optional<std::vector<Screen>> screens = fit.fit(rays.rays, lit);
     if (!screens) return std::nullopt;
-    const Vec3 tint = rays.mean * static_cast<float>(kFitRays / rays.sum);
-    return Look{Light::kSettled, {shine.lamp, tint, {}, {}, std::move(*screens)}, {}};
+    return Look{Light::kSettled, {shine.lamp, rays.tint(), {}, {}, std::move(*screens)}, {}};
   }
 
   // One triangle just over the square in place of too many: its shadow's edge is the straight line that parts what rays
   // find lit from what they find dark, and leaves as much of the square lit as they find. Where nothing parts them, a
-  // share; none where more rays than `most` would be wrong.
-  std::optional<Look> screened(const Square& square, std::uint32_t lamp, std::uint32_t most) {
+  // share; none where quarters may know more. There half a row of rays may be wrong: a bend needs no finer squares.
+  std::optional<Look> screened(const Square& square, std::uint32_t lamp, bool last) {
     const Rays rays = rays_to(square, lamp, kRaysOfEdge);
-    const auto share = [&] { return most < rays.lit.size() ? std::nullopt : std::optional(arrived(lamp, rays.mean)); };
-    if (rays.dim || rays.even()) return arrived(lamp, rays.mean);
+    if (rays.dim || rays.even()) return arrived(lamp, rays.mean());
     DVec2 of_lit(0), of_dark(0);
     for (std::size_t k = 0; k < rays.lit.size(); ++k)
       of_lit += rays.lit[k] * rays.places[k], of_dark += (1 - rays.lit[k]) * rays.places[k];
     const auto count = static_cast<double>(rays.lit.size());
     const DVec2 across = of_lit / rays.sum - of_dark / (count - rays.sum);
-    if (glm::length(across) < kParted) return share();
+    if (glm::length(across) < kParted) return last ? std::optional(arrived(lamp, rays.mean())) : std::nullopt;
     const DVec2 towards = glm::normalize(across), along(-towards.y, towards.x);
     std::vector<double> at;
     for (const DVec2& place : rays.places) at.push_back(glm::dot(towards, place - 0.5));
     std::ranges::sort(at);
     const auto dark = std::min(static_cast<std::size_t>(count - rays.sum), at.size() - 1);
     const DVec2 edge = 0.5 + towards * (0.5 * (at[dark - (dark > 0)] + at[dark]));
-    std::uint32_t astray = 0;
+    std::size_t astray = 0;
     for (std::size_t k = 0; k < rays.lit.size(); ++k)
       astray += (glm::dot(towards, rays.places[k] - edge) > 0) != (rays.lit[k] > 0) ? 1 : 0;
-    if (astray > most) return std::nullopt;
+    if (!last && 2 * kRaysOfEdge * astray > rays.lit.size()) return std::nullopt;
     const BeamTriangle corners{over(square, edge - kScreen * along, lamp), over(square, edge + kScreen * along, lamp),
                                over(square, edge - 2 * kScreen * towards, lamp)};
-    return Look{Light::kSettled, {lamp, rays.mean * static_cast<float>(count / rays.sum), {}, {}, {{corners, 1}}}, {}};
+    return Look{Light::kSettled, {lamp, rays.tint(), {}, {}, {{corners, 1}}}, {}};
   }
 
   // A place of a square, its sides being 1, on the way from there to the lamp, just over the chart.
@@ -332,13 +329,15 @@ class TileLister {
 
   // The share of a lamp's light that arrives in a square, by so many rays a side.
   struct Rays {
-    Vec3 mean{0}, most{0};
+    Vec3 all{0}, most{0};  // what arrives: of all rays, and the most
     std::vector<Ray> rays;
     std::vector<DVec2> places;  // in the square, its sides being 1
     std::vector<double> lit;    // by ray: 1, or 0; what a pane lets through is lit, too
     double sum = 0;             // of `lit`
     bool dim = false;           // of some rays so little arrives that they are neither lit nor dark
     bool beyond = false;        // no place of them is the chart's
+    Vec3 mean() const { return all / static_cast<float>(lit.size()); }
+    Vec3 tint() const { return all / static_cast<float>(std::max(sum, 1.0)); }  // of what is lit
     bool even() const { return sum == 0 || sum == static_cast<double>(lit.size()); }
   };
   // From the chart where it can: rays from beyond its end tell nothing of it, they may start in a wall that meets it
@@ -353,7 +352,6 @@ class TileLister {
     }
     out.beyond = out.places.empty();
     if (out.beyond) out.places = places;
-    for (std::size_t k = 0; out.places.size() < places.size(); ++k) out.places.push_back(out.places[k]);
     std::vector<Ray>& rays = out.rays;
     for (std::uint32_t k = 0; k < out.places.size(); ++k) {
       Ray ray;
@@ -376,7 +374,7 @@ class TileLister {
     scene_.transport.accel.transmittance(rays, passed);
     rays_ += rays.size();
     for (const Vec3& share : passed) {
-      out.mean += share / static_cast<float>(rays.size());
+      out.all += share;
       out.most = glm::max(out.most, share);
       out.sum += out.lit.emplace_back(max_component(share) > 0 ? 1 : 0);
     }

@@ -286,6 +286,29 @@ TEST(SharpLight, OfNarrowStepsIsThatOfTheirSurface) {
   EXPECT_EQ(found.wrong, 0) << "of " << found.points << ", worst " << found.worst;
 }
 
+// A rack of bars over few texels, without and with panes, whose rims take a twelfth of the light.
+TEST(SharpLight, OfARackIsThatOfItsBars) {
+  for (const bool panes : {false, true}) {
+    SceneParts parts;
+    const auto matt = parts.diffuse(Vec3(0.5f));
+    parts.quad("floor", matt, {-0.4f, 0, 0.4f}, {0.8f, 0, 0}, {0, 0, -0.8f});
+    for (int k = 0; k < 24; ++k) {
+      const float at = -0.4f + 0.8f * (static_cast<float>(k) + 0.3f) / 24;
+      parts.box("bar", matt, {at, 0.1f, -0.4f}, {at + 0.01f, 0.11f, 0.4f});
+      parts.box("bar", matt, {-0.4f, 0.12f, at}, {0.4f, 0.13f, at + 0.01f});
+    }
+    SceneMaterial glass;
+    glass.transmission = 1, glass.metallic = 0, glass.roughness = 0, glass.double_sided = true;
+    for (int k = 0; panes && k < 16; ++k)
+      parts.quad("pane", parts.add(glass), {-0.4f + 0.05f * static_cast<float>(k), 0.3f, 0.4f}, {0.025f, 0, 0},
+                 {0, 0, -0.8f});
+    parts.scene().lights = {point_at({0.1f, 2, 0.2f})};
+    const LookedAt found = look_at(test::bake(parts.finish(), 0.4f, sharp_options()), 1, panes ? 0.15 : 0.01);
+    EXPECT_GT(found.dark, 15);
+    EXPECT_EQ(found.wrong, 0) << "of " << found.points << ", worst " << found.worst << (panes ? ", panes" : "");
+  }
+}
+
 // A lattice of holes of 5 cm, whose sun is as coarse as an eighth of a texel.
 TEST(SharpLight, OfALatticeIsThatOfItsHoles) {
   SceneParts parts;
