@@ -20,6 +20,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kOccludedDirect = 16;           // the same in occlusion-heavy texels
+constexpr float kUncertain = 0.1f;                      // of the direct light, after the first round
 constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
 constexpr std::uint32_t kFirstOccluded = 32;            // the same in occlusion-heavy texels
 constexpr std::uint32_t kMostDark = 512;                // the same where these find nearly no light,
@@ -127,18 +128,22 @@ class CachedEstimator : public LightEstimator {
     const std::uint32_t first = first_direct_.samples();
     const auto enough = first_direct_.time_is_over();
     ORIEL_TRY_VOID(first_direct_.estimate(occluded, std::max(first, kOccludedDirect), enough));
-    // Bounces start from direct light: an error of more than a few percent would tint them all. What stays of it is
-    // refined where it shows.
-    std::uint32_t per_half = 4 * first;
-    // A fixed number of gather rays brings a fixed number of shadow rays with it.
-    if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
-    std::vector<std::uint32_t> list = order_;
-    std::erase_if(list, [&](std::uint32_t i) { return little_seen_[i] || direct_.per_half[i] >= per_half; });
-    keep_uncertain(direct_, error_graph_, 0, context_, list);
-    // A round that would not end in time is not begun.
-    const double more = 1.0 * per_half / first * (double(list.size()) / double(order_.size()));
-    if (!options_.left || first_direct_.seconds() * more < FirstDirect::kTime * seconds_left())
+    // Bounces start from direct light: an error of more than a few percent would tint them all. Refinement takes what
+    // is left of it where it shows; without one a second round does.
+    std::uint32_t per_half = first;
+    const double least = (1 - FirstDirect::kTime) * seconds_left();
+    for (int round = 0; round < (options_.error > 0 ? 1 : 2); ++round) {
+      per_half *= 4;
+      // A fixed number of gather rays brings a fixed number of shadow rays with it.
+      if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
+      std::vector<std::uint32_t> list = order_;
+      std::erase_if(list, [&](std::uint32_t i) { return little_seen_[i] || direct_.per_half[i] >= per_half; });
+      keep_uncertain(direct_, error_graph_, round == 0 ? 0 : kUncertain, context_, list);
+      // A round that would not end in time is not begun.
+      const double more = 1.0 * per_half / first * (double(list.size()) / double(order_.size()));
+      if (options_.left && first_direct_.seconds() * more > seconds_left() - least) break;
       ORIEL_TRY_VOID(first_direct_.estimate(list, per_half, enough));
+    }
     return {};
   }
 
