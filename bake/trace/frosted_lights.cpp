@@ -160,7 +160,7 @@ MirroredSample FrostedLights::sample(const LightSet& lights, const Vec3& p, cons
   return sample;
 }
 
-FrostedLights::Choice FrostedLights::choose(const DVec3& p, float u) const {
+std::pair<std::size_t, float> FrostedLights::choose(const DVec3& p, float u) const {
   thread_local std::vector<double> until;
   until.clear();
   double sum = 0;
@@ -171,7 +171,7 @@ FrostedLights::Choice FrostedLights::choose(const DVec3& p, float u) const {
   if (!(of_pane > 0)) return {};
   const std::size_t k = at_or_below(power_[m], (u * sum - before) / of_pane * power_[m].back());
   const double own = (power_[m][k] - (k > 0 ? power_[m][k - 1] : 0)) / power_[m].back() * of_pane;
-  return own > 0 ? Choice{of_pane_[m][k], static_cast<float>(sum / own)} : Choice{};
+  return {of_pane_[m][k], own > 0 ? static_cast<float>(sum / own) : 0.0f};
 }
 
 double FrostedLights::openness(const Way& way, const LightSet& lights, const Accel& accel) const {

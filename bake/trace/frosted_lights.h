@@ -41,11 +41,8 @@ class FrostedLights {
   MirroredSample sample(const LightSet& lights, const Vec3& p, const Chosen& chosen) const;
 
  private:
-  struct Choice {
-    std::size_t way = 0;
-    float weight = 0;  // over the probability; 0: none reaches p
-  };
-  Choice choose(const DVec3& p, float u) const;
+  // A way to p and one over its probability; 0: none reaches p.
+  std::pair<std::size_t, float> choose(const DVec3& p, float u) const;
   // Whose share of what adds up holds a sum.
   static std::size_t at_or_below(const std::vector<double>& sums, double sum) {
     return std::min<std::size_t>(std::ranges::upper_bound(sums, sum) - sums.begin(), sums.size() - 1);

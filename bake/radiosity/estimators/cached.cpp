@@ -20,7 +20,6 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kOccludedDirect = 16;           // the same in occlusion-heavy texels
-constexpr float kUncertain = 0.1f;                      // of the direct light, after the first round
 constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
 constexpr std::uint32_t kFirstOccluded = 32;            // the same in occlusion-heavy texels
 constexpr std::uint32_t kMostDark = 512;                // the same where these find nearly no light,
@@ -128,8 +127,8 @@ class CachedEstimator : public LightEstimator {
     const std::uint32_t first = first_direct_.samples();
     const auto enough = first_direct_.time_is_over();
     ORIEL_TRY_VOID(first_direct_.estimate(occluded, std::max(first, kOccludedDirect), enough));
-    // Bounces start from direct light: an error of more than a few percent would tint them all. Refinement takes what
-    // is left of it where it shows; without one a second round does.
+    // Bounces start from direct light: an error of more than a few percent would tint them all. Refinement lessens what
+    // shows of it; without one a second round does.
     std::uint32_t per_half = first;
     const double least = (1 - FirstDirect::kTime) * seconds_left();
     for (int round = 0; round < (options_.error > 0 ? 1 : 2); ++round) {

@@ -218,8 +218,7 @@ void DirectGroup::sample_frosted() {
   // Where no point of the group sees a lit pane, as in other rooms, further ones would not.
   const auto lit = [](const Tally& t) { return t.transmitted[0] + t.transmitted[1] != Vec3(0); };
   if (std::ranges::any_of(tallies_, lit)) sample(first, per_half_);
-  const auto of_a_day = [](const Light& light) { return light.hour >= 0; };
-  finish_sampled(std::ranges::any_of(scene().lights, of_a_day) ? static_cast<float>(scene().day.lit()) : 1.0f);
+  finish_sampled(scene().day.empty() ? 1.0f : static_cast<float>(scene().day.lit()));
 }
 
 void DirectGroup::sample_frosted(std::uint32_t p) {

@@ -41,11 +41,12 @@ struct DirectSums {
   }
 };
 
+inline constexpr float kUncertain = 0.1f;  // relative error of direct light
+
 // Removes texels with a reliable estimate from the list. Those stay whose direct light, or a neighbour's, has a
-// relative error above `share`, and those in whose wide neighbourhood (typical_errors) it is above a tenth. The latter
-// avoids a
-// bias: where few samples hit a light, as the sky through a window, only texels with a lucky hit would be refined, and
-// would become darker, while the others stayed dark.
+// relative error above `share`, and those in whose wide neighbourhood (typical_errors) it is uncertain. The latter
+// avoids a bias: where few samples hit a light, as the sky through a window, only texels with a lucky hit would be
+// refined, and would become darker, while the others stayed dark.
 void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
                     std::vector<std::uint32_t>& list);
 

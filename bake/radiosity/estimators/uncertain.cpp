@@ -9,7 +9,6 @@ namespace oriel {
 void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
                     std::vector<std::uint32_t>& list) {
   constexpr float kUneven = 0.02f;  // least relative error for variance over the texel
-  constexpr float kWide = 0.1f;     // relative error over the wide neighbourhood
   std::vector<float> wide_noise(sums.value.size()), wide_light(sums.value.size());
   for (std::size_t i = 0; i < wide_noise.size(); ++i)
     wide_noise[i] = luminance(sums.variance[i]), wide_light[i] = luminance(sums.value[i]);
@@ -23,7 +22,7 @@ void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share
   };
   std::erase_if(list, [&](std::uint32_t i) {
     const auto neighbours = graph.of(i);
-    return wide_noise[i] <= kWide * kWide * wide_light[i] * wide_light[i] && !uncertain(i) &&
+    return wide_noise[i] <= kUncertain * kUncertain * wide_light[i] * wide_light[i] && !uncertain(i) &&
            std::none_of(neighbours.begin(), neighbours.end(), uncertain);
   });
 }
