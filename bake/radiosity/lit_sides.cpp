@@ -211,7 +211,7 @@ LitSides lit_sides(const SideProbe& probe, std::span<const std::uint32_t> part, 
 Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Vec3> eyes, Context& context) {
   const Hash128 where = context.units ? hash_of(std::vector<Vec3>(eyes.begin(), eyes.end())) : Hash128();
   const Parts parts = in_patches(transport.accel.scene(), find_parts(transport.accel.scene()));
-  const std::size_t points = std::min(kAllPoints / std::max<std::size_t>(1, parts.count()), kPoints);
+  const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kMeanPoints, kPoints);
   Transport short_paths = transport;
   short_paths.options.max_bounces = std::min(transport.options.max_bounces, kMostBounces);
   std::vector<LitSides> of_part(parts.count(), LitSides::kBoth);

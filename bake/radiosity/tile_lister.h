@@ -254,13 +254,15 @@ class TileLister {
   // Whether light comes past what is opaque of it; panes that reach beyond the square become its tint.
   bool list(const Square& square, bool filters, LampShine& shine) {
     if (!filters) return true;
-    shine.tint = rays_to(square, shine.lamp, kRays).tint();
+    const Rays rays = rays_to(square, shine.lamp, kRays);
+    shine.tint = rays.tint();
     if (shine.tint == Vec3(0)) return false;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < shine.casters.size(); ++i)
       if (!casters_.is_filter(shine.casters[i]))
         shine.casters[kept] = shine.casters[i], shine.edges[kept++] = shine.edges[i];
     shine.casters.resize(kept), shine.edges.resize(kept);
+    if (kept == 0) shine.tint = rays.mean();
     return true;
   }
 

@@ -21,6 +21,7 @@ Result<double> surround_seconds(const BakedScene& baked, const FoundReflections&
   FoundCurvedReflectors curved = all.curved;
   const double texels = make_coarser(1, curved.maps), tried = make_coarser(kTried, curved.maps);
   if (!(tried > 0)) return 0;
+  for (FoundCurvedReflector& reflector : curved.reflectors) reflector.alpha *= kTried;  // as many paths a texel
   const Trial trial(context);
   const ElapsedTime clock;
   ORIEL_TRY_VOID(capture_surroundings(baked.accel, curved, with_lobes_of(is_shiny, outgoing), context));

@@ -138,9 +138,9 @@ Status part_rooms(const BakeOptions& options, Stopwatch& timed, Context& context
 // Splits the scene's double-sided surfaces by the light on their sides.
 Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatch& timed, Context& context) {
   Scene& scene = prepared.imported->scene;
-  if (LightSet(scene).empty() && luminance(scene.sky) <= 0) return {};  // nothing is lit
+  const LightSet lights(scene, &*prepared.accel);
+  if (lights.empty() && luminance(scene.sky) <= 0) return {};  // nothing is lit
   ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
-              const LightSet lights(scene, &*prepared.accel);
               const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, path_options(options).max_bounces);
               const ElapsedTime clock;
               const Interruptible until(

@@ -183,9 +183,9 @@ double FrostedLights::openness(const Way& way, const LightSet& lights, const Acc
     const LightSample light =
         lights.sample_light(way.light, point_on(*scene_, on->triangle, on->barycentric), random.next2());
     const Vec3 from = spawn_origin(*scene_, on->triangle, on->barycentric, light.direction);
-    const bool shines = max_component(light.estimate) > 0 &&
-                        max_component(accel.transmittance({from, light.direction, light.distance})) > 0;
-    seen += shines ? 1 : 0;
+    if (max_component(light.estimate) > 0 &&
+        max_component(accel.transmittance({from, light.direction, light.distance})) > 0)
+      ++seen;
   }
   return seen / (kProbes + 0.5);
 }

@@ -127,8 +127,8 @@ class CachedEstimator : public LightEstimator {
     const std::uint32_t first = first_direct_.samples();
     const auto enough = first_direct_.time_is_over();
     ORIEL_TRY_VOID(first_direct_.estimate(occluded, std::max(first, kOccludedDirect), enough));
-    // Bounces start from direct light: an error of more than a few percent would tint them all. Refinement lessens what
-    // shows of it; without one a second round does.
+    // Bounces start from direct light: an error of more than a few percent would tint them all, and without a goal
+    // stay.
     std::uint32_t per_half = first;
     const double least = (1 - FirstDirect::kTime) * seconds_left();
     for (int round = 0; round < (options_.error > 0 ? 1 : 2); ++round) {

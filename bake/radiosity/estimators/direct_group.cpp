@@ -206,35 +206,33 @@ void DirectGroup::sample_mirrored_light(std::uint32_t i) {
   }
 }
 
-// Light spread by flat frosted panes is sampled: it has no closed form.
 void DirectGroup::sample_frosted() {
-  const auto sample = [&](std::uint32_t first, std::uint32_t end) {
-    for (std::uint32_t p = 0; p < points_.size(); ++p)
-      if (points_[p].k >= first && points_[p].k < end) sample_frosted(p);
-    trace();
-  };
   const std::uint32_t first = std::min(per_half_, LightCalibration::kSamples);
-  sample(0, first);
-  // Where no point of the group sees a lit pane, as in other rooms, further ones would not.
-  const auto lit = [](const Tally& t) { return t.transmitted[0] + t.transmitted[1] != Vec3(0); };
-  if (std::ranges::any_of(tallies_, lit)) sample(first, per_half_);
-  finish_sampled(scene().day.empty() ? 1.0f : static_cast<float>(scene().day.lit()));
+  sample_frosted(0, first, 1);
+  // Where no point of the group sees a lit pane, as in other rooms, few groups go on, which stand for all.
+  const auto is_lit = [](const Tally& t) { return t.transmitted[0] + t.transmitted[1] != Vec3(0); };
+  const bool lit = std::ranges::any_of(tallies_, is_lit);
+  Sampler roulette(d_.seed_ + seeds::kFrostedLight, stream_of(list_[0], 0), per_half_);
+  if (lit || roulette.next1() * kUnlitGroups < 1) sample_frosted(first, per_half_, lit ? 1 : kUnlitGroups);
+  const auto of_a_day = [](const Light& light) { return light.hour >= 0; };
+  finish_sampled(std::ranges::any_of(scene().lights, of_a_day) ? static_cast<float>(scene().day.lit()) : 1.0f);
 }
 
-void DirectGroup::sample_frosted(std::uint32_t p) {
-  const FrostedLights& frosted = d_.t_.lights.frosted();
-  const Point& point = points_[p];
-  for (std::uint64_t pick = 0; pick < kFrosted; ++pick) {
-    Sampler sampler(d_.seed_ + seeds::kFrostedLight + pick, stream_of(list_[point.texel], point.half), point.k);
-    const float way = (static_cast<float>(pick) + sampler.next1()) / kFrosted;
-    const Vec2 of_light = sampler.next2();
-    MirroredSample s = frosted.sample(d_.t_.lights, point.sample_point.origin, {way, of_light, sampler.next2()});
-    const Vec3 value = s.endless * (incidence(point.sample_point.receiver(), s.direction) / float{kFrosted});
-    if (s.legs == 0 || !(max_component(value) > 0) || !is_usable(point, value)) continue;
-    s.leg[0] = leaving(point.sample_point.receiver(), s.leg[0]);
-    rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
-    shadow_rays_.push_back({p, value, s.direction, s.group, s.legs});
-  }
+void DirectGroup::sample_frosted(std::uint32_t first, std::uint32_t end, float weight) {
+  for (std::uint32_t p = 0; p < points_.size(); ++p)
+    for (std::uint64_t pick = 0; pick < kFrosted && points_[p].k >= first && points_[p].k < end; ++pick) {
+      const Point& point = points_[p];
+      Sampler sampler(d_.seed_ + seeds::kFrostedLight + pick, stream_of(list_[point.texel], point.half), point.k);
+      const FrostedLights::Chosen chosen{(static_cast<float>(pick) + sampler.next1()) / kFrosted, sampler.next2(),
+                                         sampler.next2()};
+      MirroredSample s = d_.t_.lights.frosted().sample(d_.t_.lights, point.sample_point.origin, chosen);
+      const Vec3 value = s.endless * (weight * incidence(point.sample_point.receiver(), s.direction) / float{kFrosted});
+      if (s.legs == 0 || !(max_component(value) > 0) || !is_usable(point, value)) continue;
+      s.leg[0] = leaving(point.sample_point.receiver(), s.leg[0]);
+      rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
+      shadow_rays_.push_back({p, value, s.direction, s.group, s.legs});
+    }
+  trace();
 }
 
 void DirectGroup::add_shadow_ray(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group) {

@@ -11,7 +11,8 @@ namespace oriel {
 // Direct light of a group of texels.
 class DirectGroup {
  public:
-  static constexpr int kFrosted = 4;           // samples a point, each by one way: one alone is too noisy
+  // Samples a point of light by frosted panes; of so many groups in which the first find none one takes more.
+  static constexpr int kFrosted = 4, kUnlitGroups = 8;
   static constexpr std::uint64_t kPicks = 16;  // of many punctual lights a point, by their estimated contribution
 
   // directional: run() fills DirectSums::moments.
@@ -67,7 +68,7 @@ class DirectGroup {
   // acts as an occluder.
   void sample_mirrored_light(std::uint32_t i);
   void sample_frosted();
-  void sample_frosted(std::uint32_t point);
+  void sample_frosted(std::uint32_t first, std::uint32_t end, float weight);
   void add_shadow_ray(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group = kNoGroup);
   void add_transmitted(const ShadowRay& shadow_ray, const Vec3& transmittance);
   void trace();

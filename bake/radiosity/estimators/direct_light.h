@@ -42,7 +42,6 @@ struct DirectSums {
 };
 
 inline constexpr float kUncertain = 0.1f;  // relative error of direct light
-
 // Removes texels with a reliable estimate from the list. Those stay whose direct light, or a neighbour's, has a
 // relative error above `share`, and those in whose wide neighbourhood (typical_errors) it is uncertain. The latter
 // avoids a bias: where few samples hit a light, as the sky through a window, only texels with a lucky hit would be

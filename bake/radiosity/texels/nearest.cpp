@@ -48,7 +48,7 @@ void leave_out(std::span<const std::uint32_t> unfinished, Texels& texels) {
       const auto found = in_cell.find(cell_of(texels.sample_points[i][0], side, facing));
       if (found == in_cell.end()) return false;
       // A wall does not show the light of a screw, nor that of a shade a centimetre from its lamp.
-      if (facing && texels.area_m2[found->second] < 0.5f * texels.area_m2[i]) return false;
+      if (k < kDoublings / 5 && texels.area_m2[found->second] < 0.5f * texels.area_m2[i]) return false;
       texels.nearest[i] = found->second;
       return true;
     });
