@@ -102,7 +102,7 @@ std::optional<std::vector<Screen>> ScreenFit::fit(std::span<const Ray> rays, con
     left &= ~best_covered;
     add_screens(best, best_depth, out);
   }
-  return out;
+  return out.size() > kMostListed ? std::nullopt : std::optional(std::move(out));
 }
 
 void ScreenFit::add_screens(const Area& area, double depth, std::vector<Screen>& out) const {
