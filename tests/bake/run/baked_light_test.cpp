@@ -53,16 +53,23 @@ TEST(BakedLight, LobesShowTheirReflectanceInAnEvenRoom) {
   }
 }
 
+// A wall of a room as it is seen along its normal.
+struct SeenWall {
+  const EvenRoom& room;
+  const Accel accel = *Accel::build(room.scene);
+  const LightSet lights{room.scene};
+  const BakedScene baked{accel, lights, room.atlas, room.pages};
+  const Hit hit = accel.intersect({{2, 1.5f, 1}, {0, 0, -1}});
+  SeenSurface seen{hit, Vec3(0, 0, 1)};
+};
+
 // What a reflector hardly shows of a lobe needs few paths, and below 1 % of the light none.
 TEST(BakedLight, LobesHavePathsByWhatCountsOfThem) {
   const EvenRoom room(0.35f);
-  const auto accel = Accel::build(room.scene);
-  ASSERT_TRUE(accel);
-  const LightSet lights(room.scene);
-  const BakedScene baked{*accel, lights, room.atlas, room.pages};
-  const Hit hit = accel->intersect({{2, 1.5f, 1}, {0, 0, -1}});
-  ASSERT_TRUE(hit);
-  SeenSurface seen{hit, Vec3(0, 0, 1)};
+  SeenWall wall{room};
+  const BakedScene& baked = wall.baked;
+  SeenSurface& seen = wall.seen;
+  ASSERT_TRUE(wall.hit);
   seen.glossy = true;
   const float wide = baked_radiance(baked, seen).g;  // even light shows 3.5 cd/m², its irradiance 1
   std::vector<double> rays;
@@ -86,14 +93,11 @@ TEST(BakedLight, LobesHavePathsByWhatCountsOfThem) {
 // Planar ones that are followed add nothing of their lobe, those at the end of a chain show it as wide: R E/π.
 TEST(BakedLight, PlanarMirrorsTraceNothing) {
   const EvenRoom room(0);
-  const auto accel = Accel::build(room.scene);
-  ASSERT_TRUE(accel);
-  const LightSet lights(room.scene);
-  const BakedScene baked{*accel, lights, room.atlas, room.pages};
-  const Hit hit = accel->intersect({{2, 1.5f, 1}, {0, 0, -1}});
-  ASSERT_TRUE(hit);
+  SeenWall wall{room};
+  const BakedScene& baked = wall.baked;
+  SeenSurface& seen = wall.seen;
+  ASSERT_TRUE(wall.hit);
   std::uint64_t rays = 0;
-  SeenSurface seen{hit, Vec3(0, 0, 1)};
   seen.planar = true;
   EXPECT_NEAR(baked_radiance_with_lobes(baked, seen, 32, 7, rays).g, 0.9f, 0.01f);
   seen.mirror = true;
