@@ -55,7 +55,6 @@ std::string light_line(const RadiosityReport& r) {
         fmt::format(" ({:.2g} % noise, {:.2g} % between texels)", 100 * r.relative_error, 100 * r.detail.unresolved);
   if (const HeldOutError& c = r.held_out_error; c.pixels > 0)
     line += fmt::format("; measured {} on {} held-out pixels, {}", measured_text(c), c.pixels, brightness_text(c));
-  if (r.refinements > 0) line += fmt::format("; refined {} times after that", r.refinements);
   return line;
 }
 

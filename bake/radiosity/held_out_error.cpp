@@ -25,7 +25,6 @@ constexpr double kPrecise = 0.2;                             // of the squared e
 struct HeldOutPixel {
   const FramePixel* pixel = nullptr;
   std::size_t number = 0;                     // of the pixel
-  std::size_t index = 0;                      // of the texel that it reads most of, into TexelMapPage::texel; kTexels
   DVec3 baked{0};                             // cd/m²
   DVec3 floor2{0};                            // of its view
   std::array<DVec3, kEstimates> estimates{};  // cd/m², independent of each other
@@ -40,11 +39,6 @@ float as_half(float x) {
   int exponent = 0;
   const float mantissa = std::frexp(x, &exponent);
   return std::ldexp(float_from_half(half_from_float(mantissa)), exponent);
-}
-
-DVec3 stored_light(const LightmapPage& page, std::uint32_t texel) {
-  const Vec3& light = page.irradiance[texel];
-  return {as_half(light.r), as_half(light.g), as_half(light.b)};
 }
 
 // Irradiance as the player shows it, lux.
@@ -72,15 +66,7 @@ std::vector<HeldOutPixel> hold_out(const LightmapScene& scene, std::span<const L
   std::vector<HeldOutPixel> chosen;
   for (std::size_t i = 0; i < pixels.size() && chosen.size() < kMostPixels; ++i) {
     const FramePixel& p = pixels[i];
-    HeldOutPixel h{&p, i, 0, shown(p, read(p)) + DVec3(p.emitted), floors2[p.view]};
-    if (query.target == HeldOutTarget::kTexels) {
-      const std::uint32_t most =
-          p.texel[static_cast<std::size_t>(std::max_element(p.share.begin(), p.share.end()) - p.share.begin())];
-      if (pages[p.page].state[most] != TexelState::kValid) continue;
-      const auto& texels = scene.map[p.page].texel;
-      h.index = static_cast<std::size_t>(std::lower_bound(texels.begin(), texels.end(), most) - texels.begin());
-      h.baked = shown(p, stored_light(pages[p.page], most)) + DVec3(p.emitted);
-    }
+    HeldOutPixel h{&p, i, shown(p, read(p)) + DVec3(p.emitted), floors2[p.view]};
     chosen.push_back(h);
   }
   return chosen;
@@ -90,9 +76,7 @@ class Verifier {
  public:
   Verifier(const LightmapScene& scene, const HeldOutQuery& query, Context& context)
       : t_(scene.transport), query_(query), goal2_(query.error * query.error), context_(context) {
-    texel_paths_.reserve(seeds_.size());
     for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k] = mix64(context.seed + seeds::kHeldOutPaths + k);
-    for (const std::uint64_t seed : seeds_) texel_paths_.emplace_back(scene, query.eyes, false, seed, context);
   }
 
   // Sets the limit on paths per estimate so that a batch stays within the rays.
@@ -115,7 +99,7 @@ class Verifier {
     UnitLoop loop{.stage = "certificate", .count = batch.size(), .rays = kRaysAPath * kCalibrationPaths};
     loop.inputs = [&](std::size_t k, Archive& key) {
       FramePixel pixel = *batch[k].pixel;
-      key(pixel, batch[k].number, batch[k].index, batch[k].baked, batch[k].floor2, query_.target, goal2_, most);
+      key(pixel, batch[k].number, batch[k].baked, batch[k].floor2, goal2_, most);
     };
     loop.compute = [&](std::size_t k) {
       HeldOutPixel& h = batch[k];
@@ -137,10 +121,6 @@ class Verifier {
   // which: an estimate, or kEstimates for the calibration.
   TexelSums sums(std::size_t which, const HeldOutPixel& h, std::uint32_t paths, std::uint64_t& traced) const {
     TexelSums own;
-    if (query_.target == HeldOutTarget::kTexels) {
-      texel_paths_[which].add({h.pixel->page, h.index}, {0, paths}, own, traced);
-      return own;
-    }
     const SurfacePoint point = point_on_side(t_.accel, h.pixel->triangle, h.pixel->barycentric);
     for (std::uint32_t k = 0; k < paths; ++k) {
       if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
@@ -166,7 +146,6 @@ class Verifier {
   double goal2_;
   Context& context_;
   std::array<std::uint64_t, kEstimates + 1> seeds_;  // of the estimates and the calibration
-  std::vector<TexelPaths> texel_paths_;              // likewise
   std::uint32_t most_paths_ = kCalibrationPaths;
   std::atomic<std::uint64_t> rays_{0};
 };

@@ -17,18 +17,10 @@ inline constexpr std::size_t kEstimates = 3;
 // Each estimate is used once in the denominator.
 double squared_error(const DVec3& baked, const std::array<DVec3, kEstimates>& estimates, const DVec3& floor2);
 
-// The light that is compared with paths.
-enum class HeldOutTarget {
-  kPoints,  // light interpolated at the pixel, as in the player, against light at its very point
-  kTexels,  // light of the texel with the largest weight, against its mean: no error of size or interpolation
-};
-
 // Parameters of measure_held_out_error().
 struct HeldOutQuery {
-  HeldOutTarget target = HeldOutTarget::kPoints;
   double error = 0;  // requested, relative
   std::uint64_t rays_at_most = 0;
-  std::span<const Vec3> eyes{};       // view positions, as in list_texels()
   const SharpLight* sharp = nullptr;  // of the pages; null: all light is the texels'
 };
 

@@ -33,11 +33,6 @@ constexpr float kAssumed =
     0.5f;  // relative error of light that is that of near texels: rather too much, nothing measures it
 constexpr double kMeets = 0.05;  // relative difference of two sides of a seam, half
 
-constexpr double kTolerated = 1.1;         // factor of the error requested, for the held-out error
-constexpr double kUnexplained = 0.3;       // of the squared error requested: a larger rest is due to cache look-ups,
-constexpr double kLongerPathsLeave = 0.5;  // of which longer paths leave this fraction
-constexpr double kSharpest = 0.5;          // of the error requested: the least goal of a refinement
-
 // Power on the visible parts of all lightmapped surfaces, lm.
 DVec3 incident_power(const RadiosityTask& task, const Radiosity& light) {
   DVec3 sum(0);
@@ -127,7 +122,7 @@ bool is_dark(const Transport& transport) {
 class DarkEstimator : public LightEstimator {
  public:
   explicit DarkEstimator(Texels texels) : texels_(std::move(texels)) {}
-  Status refine(const Goal&) override { return {}; }
+  Status refine(double) override { return {}; }
   void write(Radiosity& light) const override {
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       LightmapPage& page = light.pages[texels_.page[i]];
@@ -241,61 +236,24 @@ Status add_detail_in_time(const RadiosityTask& task, const LightEstimator& estim
   return {};
 }
 
-Result<HeldOutError> measure_error(const RadiosityTask& task, HeldOutTarget target,
-                                   std::span<const FramePixel> held_out, const Radiosity& light) {
-  const auto at_most = static_cast<std::uint64_t>(task.options.verify * static_cast<double>(task.work()));
-  const RadiosityOptions& options = task.options;
-  const double goal = options.error > 0 ? options.error : light.report.relative_error;
-  auto c = measure_held_out_error(task, light.pages, held_out,
-                                  {target, goal, at_most, options.eyes, &light.sharp_light}, task.context);
-  if (c) task.paths.count(c->rays);
-  return c;
-}
-
-// Measures the held-out error; nothing where there is no time. The pixels stay in `held_out`.
-Result<HeldOutError> verify(const RadiosityTask& task, const Radiosity& light, std::vector<FramePixel>& held_out) {
+// Measures the held-out error; nothing where there is no time.
+Result<HeldOutError> verify(const RadiosityTask& task, const Radiosity& light) {
   const RadiosityOptions& options = task.options;
   if (options.verify <= 0 || options.estimator != Estimator::kCached || is_dark(task.transport)) return HeldOutError();
   task.context.foretell("verification", 0);
   const auto late = [&] { return options.late(); };
   const Interruptible until(task.context, late);
   const auto measured = [&]() -> Result<HeldOutError> {
-    ORIEL_TRY(held_out, pixels_of(task, options.held_out.empty() ? options.eyes : options.held_out,
-                                  mix64(task.context.seed + seeds::kHeldOutPixels), task.context));
-    return measure_error(task, HeldOutTarget::kPoints, held_out, light);
+    ORIEL_TRY(const std::vector<FramePixel> held_out,
+              pixels_of(task, options.held_out.empty() ? options.eyes : options.held_out,
+                        mix64(task.context.seed + seeds::kHeldOutPixels), task.context));
+    const auto at_most = static_cast<std::uint64_t>(options.verify * static_cast<double>(task.work()));
+    const double goal = options.error > 0 ? options.error : light.report.relative_error;
+    return measure_held_out_error(task, light.pages, held_out, {goal, at_most, &light.sharp_light}, task.context);
   }();
-  if (measured) return measured;
-  if (task.context.stop || !late()) return measured;
+  if (measured) task.paths.count(measured->rays);
+  if (measured || task.context.stop || !late()) return measured;
   return HeldOutError();
-}
-
-// The goal of another refinement if the held-out error is too large. The part that the stated noise does not explain is
-// independent of the number of rays. Of it, the error of whole texels, less the changes by stitching, is due to cache
-// look-ups: longer paths reduce it, except with limited bounces. The rest is due to the texels' size.
-Result<std::optional<Goal>> next_goal(const RadiosityTask& task, const Goal& last, std::span<const FramePixel> held_out,
-                                      Radiosity& light) {
-  const RadiosityOptions& options = task.options;
-  RadiosityReport& report = light.report;
-  HeldOutError& c = report.held_out_error;
-  const double asked2 = options.error * options.error, square = c.relative_error * c.relative_error;
-  const bool missed = options.error > 0 && c.relative_error > kTolerated * options.error && c.error_low > options.error;
-  if (!missed || report.ended_early || report.out_of_rays || report.refinements == kRefinements) return std::nullopt;
-  if (options.enough && options.enough()) return std::nullopt;
-  const double noise2 = report.relative_error * report.relative_error;
-  double stays = std::max(square - noise2, 0.0);
-  Goal next;
-  if (report.refinements == 0 && options.bounces == 0 && stays > kUnexplained * asked2) {
-    ORIEL_TRY(const HeldOutError texels, measure_error(task, HeldOutTarget::kTexels, held_out, light));
-    c.texel_error = texels.relative_error, c.rays += texels.rays;
-    const double of_texels = c.texel_error * c.texel_error;
-    const double cache_error = of_texels - noise2 - report.seams.moved * report.seams.moved;
-    next.longer_paths = cache_error > kUnexplained * asked2 && square - of_texels < asked2;
-    if (next.longer_paths) stays -= (1 - kLongerPathsLeave) * cache_error;
-  }
-  if (!next.longer_paths && asked2 <= stays) return std::nullopt;
-  next.error = std::max(std::sqrt(std::max(asked2 - stays, 0.0)), kSharpest * options.error);
-  if (!next.longer_paths && next.error >= last.error) return std::nullopt;
-  return next;
 }
 
 void darken_all_hidden(const RadiosityTask& task, Radiosity& light) {
@@ -334,31 +292,22 @@ Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOpti
     if (!shadows.light.empty()) task.sharp = &charts;
   }
   ORIEL_TRY(const std::unique_ptr<LightEstimator> estimator, make_estimator(task));
-  Radiosity light;
-  Goal goal{.error = options.error};
-  for (int refinements = 0;; ++refinements) {
-    ORIEL_TRY_VOID(estimator->refine(goal));
-    if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
-    light = empty_radiosity(scene.map, options.directional);
-    if (task.sharp) light.sharp = empty_radiosity(scene.map, false).pages;
-    light.report.refinements = refinements;
-    estimator->write(light);
-    write_groups(task, *estimator, light);
-    ORIEL_TRY_VOID(fill_and_stitch(task, light));
-    rescale_light_groups(light);
-    ORIEL_TRY_VOID(add_detail_in_time(task, *estimator, light));
-    for (std::size_t p = 0; p < light.pages.size() && groups_lead(task, light); ++p)
-      add_up_groups(&LightmapPage::detail, p, light);
-    rescale_light_groups(light);
-    light.sharp_light = shadows.light;
-    add_sharp_light(shadows, light);
-    summarize(task, light);
-    std::vector<FramePixel> held_out;
-    ORIEL_TRY(light.report.held_out_error, verify(task, light, held_out));
-    ORIEL_TRY(const std::optional<Goal> next, next_goal(task, goal, held_out, light));
-    if (!next) break;
-    goal = *next;
-  }
+  ORIEL_TRY_VOID(estimator->refine(options.error));
+  if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
+  Radiosity light = empty_radiosity(scene.map, options.directional);
+  if (task.sharp) light.sharp = empty_radiosity(scene.map, false).pages;
+  estimator->write(light);
+  write_groups(task, *estimator, light);
+  ORIEL_TRY_VOID(fill_and_stitch(task, light));
+  rescale_light_groups(light);
+  ORIEL_TRY_VOID(add_detail_in_time(task, *estimator, light));
+  for (std::size_t p = 0; p < light.pages.size() && groups_lead(task, light); ++p)
+    add_up_groups(&LightmapPage::detail, p, light);
+  rescale_light_groups(light);
+  light.sharp_light = std::move(shadows.light);
+  add_sharp_light(shadows, light);
+  summarize(task, light);
+  ORIEL_TRY(light.report.held_out_error, verify(task, light));
   light.report.rays = rays + quick_rays + light.report.detail.rays;
   if (light.report.assumed > 0)
     context.warning(

@@ -54,7 +54,7 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        Use::kRare, "samples", "", "--error"},
       {"--verify", kLightmap,
        "After the lightmap, measure its error on held-out pixels by unbiased paths: with so many of the bake's rays, "
-       "or off. What misses --error by a tenth is refined",
+       "or off",
        quantity(r.verify, "off|SHARE", parse_verify, verify_text), Use::kRare, "verify"},
       {"--estimator", kLightmap,
        "How light is computed: cached (bounces kept in the lightmap, one final gather, filtered: some hundred times "

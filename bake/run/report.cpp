@@ -141,7 +141,6 @@ Json certificate_json(const BakeFacts& f) {
           {"relative_error", c.relative_error},
           {"relative_error_95_low", c.error_low},
           {"relative_error_95_high", c.error_high},
-          {"texel_error", c.texel_error},
           {"rays", c.rays},
           {"worst", worst_json(f)}};
 }
@@ -300,7 +299,6 @@ std::string plan_json(const BakeFacts& f) {
         {"ended_early", f.radiosity.ended_early},
         {"out_of_rays", f.radiosity.out_of_rays},
         {"certificate", certificate_json(f)},
-        {"refinements", f.radiosity.refinements},
         {"seams", seams_json(f.radiosity.seams)},
         {"detail", detail_json(f.radiosity.detail)},
         {"mean_lux", rgb(f.radiosity.mean)},

@@ -323,10 +323,6 @@ std::optional<Why> why_at(const Pack& pack, const MeshRays& rays, const Vec3& pl
   }
   why.lights = judge_lights(pack, rays, point, why.lights_left_out);
   if (why.dark && why.reasons.empty()) add_darkness(pack, why);
-  const Json plan = Json::parse(pack.plan).value_or(Json());
-  if (plan.is_object() && plan.contains("radiosity") && plan["radiosity"].is_object() &&
-      plan["radiosity"].contains("refinements") && plan["radiosity"]["refinements"].is_number_integer())
-    why.refinements = plan["radiosity"]["refinements"].get<int>();
   return why;
 }
 

@@ -62,7 +62,6 @@ struct Why {
   std::size_t lights_left_out = 0;  // beyond the first ones
   float near_share = 0;             // of what it sees that is nearer than a texel, and what that is
   std::string near_by;
-  std::optional<int> refinements;  // of the whole lightmap, as its plan says
 };
 
 struct WhyOptions {

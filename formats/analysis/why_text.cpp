@@ -58,11 +58,6 @@ std::string why_text(const Why& why) {
   if (why.near_share > 0)
     text += fmt::format("sees    {:.0f} % of what it sees is nearer than {:.0f} cm, most of it '{}'\n",
                         100 * why.near_share, 100 * std::max(why.side_m, 0.02f), why.near_by);
-  if (why.refinements)
-    text +=
-        *why.refinements == 0
-            ? "the whole lightmap was refined once, and not again after it was verified\n"
-            : fmt::format("the whole lightmap was refined {} times again, after it was verified\n", *why.refinements);
   return text;
 }
 
@@ -92,8 +87,7 @@ std::string why_json(const Why& why) {
                      {"lights", lights},
                      {"lights_left_out", why.lights_left_out},
                      {"near_share", why.near_share},
-                     {"near", why.near_by},
-                     {"refinements", why.refinements ? Json(*why.refinements) : Json()}};
+                     {"near", why.near_by}};
   return json.dump(2) + "\n";
 }
 

@@ -101,7 +101,7 @@ Result<std::vector<LightmapPage>> bake_reflected(const LightmapScene& scene, con
   std::atomic<std::uint64_t> rays{0}, quick_rays{0};
   const RadiosityTask task{scene, pixels, options, context, {context, &rays}, {context, &quick_rays}};
   ORIEL_TRY(const std::unique_ptr<LightEstimator> estimator, make_cached_estimator(task));
-  ORIEL_TRY_VOID(estimator->refine({.error = options.error}));
+  ORIEL_TRY_VOID(estimator->refine(options.error));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
   const std::optional<TexelLight> known = estimator->texel_light();
   const std::size_t texels = known->texels.count();

@@ -33,7 +33,7 @@ Result<HeldOutError> measure(const BakeOptions& options, double known_to, std::u
       const std::vector<FramePixel> pixels,
       find_frame_pixels(transport, atlas, {held_out_eyes(prepared.region, kEyes, kSeed), kPixels}, kSeed, context));
   return measure_held_out_error({transport, atlas, prepared.texel_map}, pack.lightmaps, pixels,
-                                {HeldOutTarget::kPoints, known_to, rays_at_most}, context);
+                                {known_to, rays_at_most}, context);
 }
 
 int bench(int argc, char** argv) {

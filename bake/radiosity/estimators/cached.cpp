@@ -26,7 +26,6 @@ constexpr std::uint32_t kMostDark = 512;                // the same where these 
 constexpr float kDark = 0.002f;                         // a fraction of the mean
 constexpr double kLittleSeen = 0.1;                     // of the squared error asked for
 constexpr float kCoarseError = 0.25f;                   // relative, of bounces without gather rays
-constexpr float kLongerPaths = 4;                       // minimum distance (Goal::longer_paths), texel sides
 constexpr double kGatherGain = 0.5, kDirectGain = 0.6;  // of the squared error, by a refinement
 
 class CachedEstimator : public LightEstimator {
@@ -46,11 +45,9 @@ class CachedEstimator : public LightEstimator {
         frames_(task.pixels, task.map, texels_.has_light()),
         most_rays_(options_) {}
 
-  Status refine(const Goal& goal) override {
-    if (importance_.empty()) ORIEL_TRY_VOID(begin(goal));
-    if (goal.longer_paths) ORIEL_TRY_VOID(gather_with_longer_paths());
-    ORIEL_TRY_VOID(refine_to(goal.error / noise_of_hours(query_, importance_, {direct_, gathered_})));
-    return {};
+  Status refine(double error) override {
+    ORIEL_TRY_VOID(begin(error));
+    return refine_to(error / noise_of_hours(query_, importance_, {direct_, gathered_}));
   }
 
   void write(Radiosity& light) const override {
@@ -78,20 +75,20 @@ class CachedEstimator : public LightEstimator {
 
  private:
   // Computes direct light, its bounces on coarse patches, and the first gather.
-  Status begin(const Goal& goal) {
+  Status begin(double error) {
     ORIEL_TRY(const bool all, first_direct_.everywhere(order_));
     if (!all) frames_ = FrameError(task_.pixels, task_.map, texels_.has_light());
     ORIEL_TRY(graph_, find_neighbours(query_.transport(), texels_, task_.paths));
     error_graph_ = with_chart_neighbours(graph_, texels_);
     importance_ = typical_errors(error_graph_, frames_.importance(), context_);
-    little_seen_ = little_seen(order_, importance_, kLittleSeen * goal.error * goal.error);
+    little_seen_ = little_seen(order_, importance_, kLittleSeen * error * error);
     ORIEL_TRY_VOID(first_direct());
     // With limited bounces rays find this light, which count bounces.
     if (options_.bounces == 0)
       ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
     irradiance_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
-    const SweepOptions how = sweep_options(options_, goal.error, texels_.count());
+    const SweepOptions how = sweep_options(options_, error, texels_.count());
     const GroupedLight* grouped = query_.groups() > 0 ? &grouped_ : nullptr;
     if (grouped) grouped_ = direct_.grouped;
     for (int h = 0; grouped && h < kHalves; ++h) grouped_.add(gathered_.additional_grouped[h], 0.5f);
@@ -274,27 +271,6 @@ class CachedEstimator : public LightEstimator {
     }));
     update_direct();
     direct_rays_ += task_.quick.traced() - before;
-    return {};
-  }
-
-  // Gathers as many samples again, with longer paths. The old ones stay if time runs out.
-  Status gather_with_longer_paths() {
-    const float before = query_.min_distance();
-    if (before >= kLongerPaths) return {};
-    query_.set_min_distance(kLongerPaths);
-    HalfSums anew = gathered_;
-    for (const std::uint32_t i : order_) anew.clear(i);
-    LampLight lamps(texels_.count(), options_.directional, query_.groups());
-    if (lamps_.particles > 0) ORIEL_TRY_VOID(follow_lamps(lamps_.particles, lamps, anew));
-    ORIEL_TRY_VOID(by_samples(order_, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
-      return gather_.run(same, samples, task_.paths, anew);
-    }));
-    if (ended_early_) {
-      query_.set_min_distance(before);
-      return {};
-    }
-    gathered_ = std::move(anew), lamps_ = std::move(lamps);
-    update_estimate();
     return {};
   }
 

@@ -34,12 +34,6 @@ struct RadiosityTask : LightmapScene {
   }
 };
 
-// The target of a refinement.
-struct Goal {
-  double error = 0;           // of frames, relative; 0: take all samples
-  bool longer_paths = false;  // cached: a four times larger minimum distance of cache look-ups
-};
-
 // Pages of the texel map's sizes, without light.
 Radiosity empty_radiosity(std::span<const TexelMapPage> map, bool directional);
 
@@ -63,8 +57,9 @@ struct TexelLight {
 class LightEstimator {
  public:
   virtual ~LightEstimator() = default;
-  // Refines until the goal is reached, all samples are taken, or RadiosityOptions::enough. Error kStopped.
-  virtual Status refine(const Goal& goal) = 0;
+  // Refines until the error of frames, relative, is as given (0: never), all samples are taken, or
+  // RadiosityOptions::enough. Error kStopped.
+  virtual Status refine(double error) = 0;
   // Writes the estimate as it stands: light, standard error, state and visible fraction of each covered texel, and the
   // report's fields. `light` is an empty_radiosity().
   virtual void write(Radiosity& light) const = 0;

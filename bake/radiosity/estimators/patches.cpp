@@ -62,7 +62,7 @@ class Solver {
     UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kPatchesATask - 1) / kPatchesATask};
     loop.rays = static_cast<double>(kPatchesATask) * options_.rays_per_patch;
     loop.inputs = [&](std::size_t g, Archive& key) {
-      key(direct, options_.side, options_.rays_per_patch, g, query_.min_distance(), query_.lamps(), texels_.eyes);
+      key(direct, options_.side, options_.rays_per_patch, g, query_.lamps(), texels_.eyes);
       if (grouped_) key(grouped);
     };
     loop.compute = [&](std::size_t g) {

@@ -48,13 +48,13 @@ class PathEstimator : public LightEstimator {
   }
 
   // Doubles the paths in rounds. Sums continue from round to round: the result equals that of a single round.
-  Status refine(const Goal& goal) override {
+  Status refine(double wanted) override {
     const RadiosityOptions& options = task_.options;
-    const bool in_rounds = goal.error > 0 || options.enough;
+    const bool in_rounds = wanted > 0 || options.enough;
     while (path_count_ < options.samples) {
       const std::uint32_t first = in_rounds ? std::min(options.samples, kFirstPaths) : options.samples;
       ORIEL_TRY_VOID(add_paths(path_count_ == 0 ? first : std::min(options.samples, 2 * path_count_)));
-      if (task_.context.stopped() || (goal.error > 0 && error() <= goal.error)) return {};
+      if (task_.context.stopped() || (wanted > 0 && error() <= wanted)) return {};
       if (path_count_ == options.samples) return {};
       if (options.enough) task_.context.finishable = true;
       if ((ended_early_ = options.enough && options.enough())) return {};

@@ -20,7 +20,6 @@ struct FilterOptions {
   float strength = 1;  // edge threshold in standard deviations; 0: no filter
 };
 
-inline constexpr int kRefinements = 2;  // at most, after verification
 // The default of RadiosityOptions::most_rays where no error is given: a minute or two on two cores. Scenes of many
 // texels may have kMostTexelMean rays a texel instead.
 inline constexpr std::uint64_t kDefaultMostRays = 32 << 20, kMostTexelMean = 256;
@@ -63,8 +62,7 @@ struct RadiosityOptions {
   // directions from the same ones.
   std::vector<Vec3> eyes = {}, held_out = {};
   // cached: rays that measure the held-out error by unbiased paths, as a fraction of the bake's (at least some
-  // thousand); 0: none. If it is measurably above 1.1 times `error`, the light is refined again, where less noise or
-  // longer paths before look-ups can reduce it, at most kRefinements times.
+  // thousand); 0: none.
   double verify = 0.1;
   FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;
@@ -105,9 +103,6 @@ struct HeldOutError {
   double bias_interval = 0;              // 95 % confidence: bias ± this
   double relative_error = 0;             // rms over pixels (texels/frame_error.h), without the paths' noise
   double error_low = 0, error_high = 0;  // 95 % confidence interval of the rms
-  // The same for the means of the texels that pixels read: the rest is due to texel size and interpolation. Measured
-  // where the error was missed and this may be the reason; else 0.
-  double texel_error = 0;
   std::uint64_t rays = 0;
   std::vector<WorstPixel> worst;  // at most eight, the worst first, each with 1 % of the squared error or more
 };
@@ -136,7 +131,6 @@ struct RadiosityReport {
   bool ended_early = false;         // by `enough`, above the error requested
   std::uint64_t first_rays = 0;     // cached: of `rays`, before any refinement
   bool out_of_rays = false;         // ended by RadiosityOptions::most_rays, likewise
-  int refinements = 0;              // cached: repeated because of the held-out error
   double sweep_tail = 0;            // cached: bound on the light of further bounces, relative
   double sweep_growth = 0;          // cached: light of the last bounce over that of the one before
   std::size_t bounded_patches = 0;  // cached: patches with bounded weights (patches.h)

@@ -56,16 +56,13 @@ class CacheQuery {
   bool weighs() const { return !closed_form_ || t_.lights.samples_sky(); }
   bool closed_form() const { return closed_form_; }
 
-  // The minimum distance of a look-up, in side lengths of the texel hit: closer hits continue the path. A larger one
-  // reduces the error of the cache's resolution, and costs more rays and noise.
-  float min_distance() const { return min_distance_; }
-  void set_min_distance(float sides) { min_distance_ = sides; }
   const Transport& transport() const { return t_; }
   std::size_t groups() const { return scene().light_groups.size(); }  // light groups
-  // True if a path continues from a hit at that distance, m, instead of looking up the texel. It then finds all light.
+  // True if a path continues from a hit at that distance, m, instead of looking up the texel: closer than its
+  // side, or eight of them where much is occluded. It then finds all light.
   bool continues_path(float distance, std::uint32_t texel) const {
     return texel != kNoTexel &&
-           distance < min_distance_ * (texels_.occlusion_heavy[texel] ? kOcclusionHeavyFactor : 1.0f) * side_[texel];
+           distance < (texels_.occlusion_heavy[texel] ? kOcclusionHeavyFactor : 1.0f) * side_[texel];
   }
 
   // Leaves light of near lamps by specular reflections alone out of results: particles carry it (lamp_paths.h).
@@ -78,7 +75,7 @@ class CacheQuery {
   const std::vector<float>& survival() const { return survival_; }
 
  private:
-  static constexpr float kOcclusionHeavyFactor = 8;  // times the minimum distance
+  static constexpr float kOcclusionHeavyFactor = 8;  // times the distance
 
   // True if the texel's mean is a poor estimate at the hit: it is close by, or the texel reaches under or into another
   // body and is lit elsewhere.
@@ -111,7 +108,6 @@ class CacheQuery {
   const Texels& texels_;
   bool closed_form_;
   std::uint64_t seed_;
-  float min_distance_ = 1;
   bool lamps_ = true;
   std::vector<Kind> kinds_;      // by triangle
   std::vector<float> survival_;  // by material

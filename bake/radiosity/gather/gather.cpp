@@ -209,7 +209,7 @@ Status FinalGather::run(std::span<const std::uint32_t> list, std::uint32_t per_h
   UnitLoop loop{.stage = "gather", .count = (list.size() + kGroup - 1) / kGroup};
   loop.rays = static_cast<double>(kGroup * kHalves) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) {
-    key(light, part(g), per_half, query.min_distance(), query.lamps(), query.survival(), sample_points.texels().eyes);
+    key(light, part(g), per_half, query.lamps(), query.survival(), sample_points.texels().eyes);
     if (cached.grouped) key(grouped_light);
     if (cached.bright) key(cached.bright->content_hash());
     sums_of(g, key);  // samples are added to them

@@ -32,12 +32,6 @@ struct HalfSums {
     for (auto& s : slope) s.resize(texels);
     for (auto& b : additional) b.resize(texels);
   }
-  void clear(std::size_t i) {
-    for (int h = 0; h < kHalves; ++h) sum[h][i] = slope[h][i] = Vec3(0);
-    if (!moments.empty()) moments[i] = Vec4(0);
-    for (GroupedLight& half : grouped) std::ranges::fill(half.of(i), Vec3(0));
-    samples[i] = 0;
-  }
   // Sets one sample by an assumed irradiance, lux, instead of a gathered one. uncertain: its relative error. of_groups:
   // irradiance by light group, of all texels.
   void set_assumed(std::size_t i, const Vec3& light, float uncertain, const GroupedLight& of_groups) {

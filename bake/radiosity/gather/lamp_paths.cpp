@@ -269,7 +269,7 @@ Status trace_lamps(const Texels& texels, const CacheQuery& query, std::uint64_t 
     std::vector<std::vector<Arrival>> arrivals(units * kHalves);
     std::vector<std::vector<GroupedArrival>> grouped(units * kHalves);
     UnitLoop loop{.stage = "lamp paths", .count = arrivals.size(), .rays = 4.0 * kUnit};
-    loop.inputs = [&](std::size_t u, Archive& key) { key(first, count, u, query.min_distance(), texels.eyes); };
+    loop.inputs = [&](std::size_t u, Archive& key) { key(first, count, u, texels.eyes); };
     loop.compute = [&](std::size_t u) {
       std::uint64_t traced = 0;
       const std::uint64_t from = first + u / kHalves * kUnit, to = std::min(first + count, from + kUnit);

@@ -64,22 +64,20 @@ TEST(CachedLight, LightBelowZeroIsMetAsNone) {
   }
 }
 
-// A ray that meets a floor of 10 cm texels from 25 cm above: far from two texels, near to four, and then followed to
-// where it sees the sky.
-TEST(CacheQuery, NearIsFollowedSoManySides) {
+// Rays that meet a floor of 10 cm texels: from within a texel's side they are followed to where they see the sky.
+TEST(CacheQuery, WhatIsNearIsFollowed) {
   Listed listed(plain_floor(), 0.1f);
   listed.scene.sky = Vec3(2);
   listed.accel.emplace(*Accel::build(listed.scene));
   const Transport transport = listed.transport();
-  CacheQuery query(transport, listed.texels, true, 1);
-  const std::array ray{Ray{{1.02f, 0.25f, 1.03f}, {0, -1, 0}}};
+  const CacheQuery query(transport, listed.texels, true, 1);
   const std::array info{GatherRay{.incidence = 1, .follows_near = true}};
-  for (const float sides : {2.0f, 4.0f}) {
-    query.set_min_distance(sides);
+  for (const float height : {0.08f, 0.12f}) {
+    const std::array ray{Ray{{1.02f, height, 1.03f}, {0, -1, 0}}};
     QueryResults results;
     query.evaluate(ray, info, results);
-    EXPECT_EQ(results.texel[0] == kNoTexel, sides > 2.5f) << sides;
-    EXPECT_FLOAT_EQ(results.light[0].g, sides > 2.5f ? 2 * 0.5f : 0) << "the sky on an albedo of a half";
+    EXPECT_EQ(results.texel[0] == kNoTexel, height < 0.1f) << height;
+    EXPECT_FLOAT_EQ(results.light[0].g, height < 0.1f ? 2 * 0.5f : 0) << "the sky on an albedo of a half";
   }
 }
 

@@ -142,7 +142,6 @@ TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
   LampLight light(listed.texels.count(), false);
   const auto flux = [&](bool by_particles) {
     CacheQuery query(transport, listed.texels, true, 1);
-    query.set_min_distance(2);
     query.set_survival(std::vector<float>(listed.scene.materials.size(), 64.0f));
     HalfSums sums(listed.texels.count(), false);
     if (by_particles) {
