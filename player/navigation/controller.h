@@ -22,7 +22,7 @@ struct MoveOptions {
   float wheel_factor = 1.2f;  // speed by notch
   float min_speed_m_s = 0.01f, max_speed_m_s = 500;
   float zoom_per_s = 1, orbit_rad_per_s = 1;  // in orbit: keys come e-fold nearer in a second, or go around
-  float nearest_orbit_m = 0.1f;
+  float nearest_orbit_m = 0.15f;
   float max_pitch_rad = 1.5533f;  // 89°: so that the heading stays defined
   float max_step_s = 0.1f;        // a longer frame moves no farther than this
 };

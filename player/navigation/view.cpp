@@ -9,8 +9,9 @@ struct DepthRange {
   float near = 0.1f, far = 100.0f;
 };
 
-// Distances along `forward` that the box spans, cut so that a float depth buffer still tells surfaces apart.
-DepthRange depth_range(const Bounds& bounds, const Vec3& eye, const Vec3& forward, bool orthographic) {
+// Distances along `forward` that the box spans, cut so that 24 bits of depth tell apart what meets at an edge: a step
+// at distance d is d² / (near 2^24), at the scene's radius no more than a 256th of a pixel, to which edges are placed.
+DepthRange depth_range(const Bounds& bounds, const Vec3& eye, const Vec3& forward, bool orthographic, float closest_m) {
   if (bounds.empty()) return {};
   const double radius = std::max(static_cast<double>(bounds.radius()), 1e-12);
   const double center = glm::dot(DVec3(bounds.center()) - DVec3(eye), DVec3(forward));
@@ -18,14 +19,13 @@ DepthRange depth_range(const Bounds& bounds, const Vec3& eye, const Vec3& forwar
   double near = center - radius * 1.01;
   if (orthographic) return {static_cast<float>(near), static_cast<float>(std::max(far, near + radius * 1e-3))};
   far = std::max(far, radius * 1e-2);
-  // A near plane of 2 cm in a building, and smaller in smaller scenes.
-  near = std::max({near, std::min(0.02, radius * 1e-3), far * 1e-5});
+  near = std::max({near, std::min<double>(closest_m, radius / 64), far * 1e-5});
   return {static_cast<float>(near), static_cast<float>(std::max(far, near * 1.001))};
 }
 
 }  // namespace
 
-View make_view(const Camera& camera, int width, int height, const Bounds& bounds) {
+View make_view(const Camera& camera, int width, int height, const Bounds& bounds, float closest_m) {
   View view;
   view.width = std::max(width, 1);
   view.height = std::max(height, 1);
@@ -39,7 +39,7 @@ View make_view(const Camera& camera, int width, int height, const Bounds& bounds
   view.view_from_pack = Mat4(glm::transpose(pack_from_view));
   view.view_from_pack[3] = Vec4(-(glm::transpose(pack_from_view) * camera.eye), 1);
 
-  const DepthRange range = depth_range(bounds, camera.eye, forward, view.orthographic);
+  const DepthRange range = depth_range(bounds, camera.eye, forward, view.orthographic, closest_m);
   const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
   view.near = range.near;
   view.far = range.far;

@@ -21,10 +21,11 @@ struct View {
   int width = 1, height = 1;
 };
 
-// Near and far planes enclose `bounds` as seen from the eye; near is at least 1e-5 of far. Any camera whose numbers are
-// finite gives finite matrices: a direction or field of view that means nothing is replaced by the nearest one that
-// does.
-View make_view(const Camera& camera, int width, int height, const Bounds& bounds);
+// Near and far planes enclose `bounds` as seen from the eye; what is nearer than closest_m may be cut off, in a small
+// scene nearer than a 64th of its radius. People's eyes keep 25 cm from walls, and at 90° the corners of a wide picture
+// are 2.3 times as far as its near plane. Any camera whose numbers are finite gives finite matrices: a direction or
+// field of view that means nothing is replaced by the nearest one that does.
+View make_view(const Camera& camera, int width, int height, const Bounds& bounds, float closest_m = 0.1f);
 
 // The view's projection with another far plane, at least 0.1 % behind the near one.
 Mat4 clip_from_view_to(const View& view, float far);

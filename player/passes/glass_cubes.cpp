@@ -15,15 +15,15 @@ constexpr int kShapeSize = 128;             // texels a side of a face
 constexpr std::ptrdiff_t kMostAround = 16;  // bodies that the scene is drawn around; others use the nearest one's
 constexpr float kLeastOfPicture = 1e-4f;    // of it, that a body covers for that
 
-// As OpenGL has the faces of a cube.
-Camera face_camera(const Vec3& eye, int face) {
+// As OpenGL has the faces of a cube around the middle of a body, which near things show in.
+View face_view(const Vec3& eye, int face, int size, const Bounds& bounds) {
   Camera camera;
   camera.eye = eye;
   camera.forward = Vec3(0);
   camera.forward[face / 2] = face % 2 == 0 ? 1.0f : -1.0f;
   camera.up = face / 2 == 1 ? Vec3(0, 0, camera.forward.y) : Vec3(0, -1, 0);
   camera.vertical_fov_rad = 0.5f * kPi;
-  return camera;
+  return make_view(camera, size, size, bounds, std::min(0.02f, 1e-3f * bounds.radius()));
 }
 
 gpu::Texture2d texture_of(std::vector<Vec4> texels) {
@@ -80,8 +80,7 @@ Status GlassCubes::draw_shape(const FrameContext& context, std::size_t body) {
     gpu::RasterState state;
     state.depth_test = state.depth_write = true;
     gpu::apply(state);
-    shape_.set("u_clip_from_pack",
-               make_view(face_camera(glass.centre, face), kShapeSize, kShapeSize, glass.bounds).clip_from_pack);
+    shape_.set("u_clip_from_pack", face_view(glass.centre, face, kShapeSize, glass.bounds).clip_from_pack);
     for (const DrawRange& range : glass.ranges) draw_indices(range.first_index, range.index_count, context.stats);
   }
   return {};
@@ -93,8 +92,7 @@ Status GlassCubes::draw_around(const FrameContext& context, std::size_t body, co
   if (!around) around = gpu::CubeTexture(gpu::kRgba32f, kAroundSize, gpu::mip_levels(kAroundSize, kAroundSize));
   ORIEL_TRY_VOID(gpu::check_gl("making the surroundings of glass"));
   for (int face = 0; face < 6; ++face) {
-    const View view =
-        make_view(face_camera(scene.glass()[body].centre, face), kAroundSize, kAroundSize, scene.bounds());
+    const View view = face_view(scene.glass()[body].centre, face, kAroundSize, scene.bounds());
     face_.bind();
     face_.attach_color_face(around, face);
     glViewport(0, 0, kAroundSize, kAroundSize);

@@ -59,7 +59,7 @@ Status HybridRenderer::take(std::shared_ptr<const PreviewScene> scene) {
 
 Status HybridRenderer::look(const Camera& camera, int width, int height) {
   const Scene& scene = scene_->scene();
-  view_ = make_view(camera, width, height, {scene.lower, scene.upper});
+  view_ = make_view(camera, width, height, {scene.lower, scene.upper}, 5e-3f);  // small, for caps by rays
   ORIEL_TRY(surfaces_, make_seen_surfaces(width, height));
   light_ = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
   ORIEL_TRY(light_framebuffer_, gpu::Framebuffer::create("seen light", &light_, &surfaces_->depth, true));

@@ -30,6 +30,28 @@ void expect_light(const Vec3& found, const Vec3& expected, float relative = 1e-6
 
 class Shading : public FrameTest {};
 
+// Walls of boxes: at the seam of two fronts one's end lies behind the other, black, and wins where depths are equal.
+TEST_F(Shading, SeamsOfBoxesHideTheirEnds) {
+  constexpr int kRows = 720, kFrames = 8;
+  Pack pack = lit_quad(Vec3(256));
+  pack.lightmaps.push_back(flat_page(Vec3(0)));
+  pack.mesh = {};
+  for (const float left : {-4.0f, 0.0f}) add_quad(pack, {left, -2, 0}, {4, 0, 0}, {0, 4, 0}, 0, 0);
+  add_quad(pack, {0, -2, 0}, {0, 0, -1}, {0, 4, 0}, 0, 1);
+  Camera camera;
+  camera.eye = {2.5f, 0, 3};
+  camera.forward = glm::normalize(-camera.eye);
+  int dark = 0;
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    camera.up = {0.01f * static_cast<float>(frame), 1, 0};  // the seam crosses columns of pixels
+    const Picture p = draw(pack, camera, 1280, kRows);
+    for (int y = 0; y < kRows; ++y)
+      for (int x = 2; x < p.width - 2; ++x)
+        dark += p.at(x, y).y < 10 && std::min(p.at(x - 2, y).y, p.at(x + 2, y).y) > 10;
+  }
+  EXPECT_LE(dark, kFrames * kRows / 256) << "rasterisers place edges to a 256th of a pixel";
+}
+
 TEST_F(Shading, DiffuseIsAlbedoOverPiTimesIrradiance) {
   for (const float scale : {1e-6f, 1.0f, 1e3f, 1e9f}) {
     const Vec3 e = Vec3(1, 0.5f, 0.25f) * scale;

@@ -15,7 +15,7 @@ function depthRange(bounds: Bounds, eye: Vec3, forward: Vec3, ortho: boolean): [
   let far = middle + radius * 1.01, near = middle - radius * 1.01;
   if (ortho) return [near, Math.max(far, near + radius * 1e-3)];
   far = Math.max(far, radius * 1e-2);
-  near = Math.max(near, Math.min(0.02, radius * 1e-3), far * 1e-5);
+  near = Math.max(near, Math.min(0.1, radius / 64), far * 1e-5);
   return [near, Math.max(far, near * 1.001)];
 }
 
