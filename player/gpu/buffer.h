@@ -31,6 +31,7 @@ class Buffer {
 
   // To the target, of the bound vertex array where that is GL_ELEMENT_ARRAY_BUFFER.
   void bind(GLenum target) const { glBindBuffer(target, handle_.name()); }
+  GLuint name() const { return handle_.name(); }
 
  private:
   Handle<ObjectKind::kBuffer> handle_;

@@ -72,7 +72,10 @@ Result<Device> open_device() {
     device.samples = std::max(1, std::min(colors, depths));
   }
   device.point_size_max = std::max(1.0f, points[1]);
-  device.pass_timers = desktop && device.renderer.find("llvmpipe") == std::string::npos;
+  const bool llvmpipe = device.renderer.find("llvmpipe") != std::string::npos;
+  device.pass_timers = desktop && !llvmpipe;
+  device.shades_hidden = desktop && llvmpipe && epoxy_has_gl_extension("GL_ARB_shader_storage_buffer_object") &&
+                         epoxy_has_gl_extension("GL_ARB_shader_image_load_store");
   if (desktop) {
     glEnable(GL_PROGRAM_POINT_SIZE);  // always on in OpenGL ES
     glDisable(GL_FRAMEBUFFER_SRGB);   // shaders encode

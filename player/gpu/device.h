@@ -20,6 +20,9 @@ struct Device {
   // Whether timer queries tell passes apart: OpenGL 3.3 has them, but a rasteriser that draws tile by tile (llvmpipe)
   // draws passes into one framebuffer together, and each one's time is that of all.
   bool pass_timers = false;
+  // Whether it shades what is hidden like what is seen wherever a pixel has several samples, as llvmpipe does, and can
+  // tell which triangles are seen (shaders/passes/seen.frag).
+  bool shades_hidden = false;
 };
 
 // Reads the current context and sets the state that all passes assume. Error kRuntime where there is none, or less than

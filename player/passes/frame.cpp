@@ -54,17 +54,23 @@ void count_images(GpuScene& scene, FrameStats& stats) {
   stats.missing_images = static_cast<std::uint32_t>(state.left_out);
 }
 
+// Of the bound framebuffer, row 0 at the top.
 template <class T>
-std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
+std::vector<T> read_pixels(const IVec2& size, GLenum format, GLenum type, std::size_t channels) {
+  const std::size_t row = channels * static_cast<std::size_t>(size.x);
+  std::vector<T> out(row * static_cast<std::size_t>(size.y));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size.x, size.y, format, type, out.data());
+  for (std::size_t low = 0, high = out.size() / row; low + 1 < high--; ++low)
+    std::swap_ranges(&out[low * row], &out[low * row] + row, &out[high * row]);
+  return out;
+}
+
+template <class T>
+std::vector<T> without_alpha(const std::vector<T>& rgba) {
   std::vector<T> rgb;
-  rgb.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-  for (int y = height - 1; y >= 0; --y) {
-    for (int x = 0; x < width; ++x) {
-      const std::size_t at =
-          (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 4;
-      rgb.insert(rgb.end(), {rgba[at], rgba[at + 1], rgba[at + 2]});
-    }
-  }
+  rgb.reserve(rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < rgba.size(); i += 4) rgb.insert(rgb.end(), &rgba[i], &rgba[i] + 3);
   return rgb;
 }
 
@@ -78,7 +84,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   renderer->device_ = device;
   renderer->glass_pass_ = GlassPass(device.dialect);
   renderer->clock_ = PassClock(device.pass_timers);
-  ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
+  ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device));
   ORIEL_TRY(renderer->mover_pass_, MoverPass::create(device.dialect));
   ORIEL_TRY(renderer->bright_pass_, BrightPass::create(device.dialect));
   ORIEL_TRY(renderer->reflections_, ReflectionRenderer::create(device));
@@ -143,8 +149,15 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   frame_->drawn().bind();
   clear_bound(view, options.show == Show::kAll ? scene.pack().sky : Vec3(0));
 
-  const std::vector<DrawBatch> shown = choose_shown(context);
-  clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(context, shown); });
+  std::vector<DrawBatch> shown = choose_shown(context);
+  clock_.time(Pass::kDepth, [&] {
+    const bool marks = device_.shades_hidden && frame_->samples() > 1;
+    if (marks) shown = scene.keep_shown(std::move(shown), {});
+    scene_pass_.draw_depth(context, shown);
+    if (!marks || shown.empty()) return;
+    const std::vector<std::uint32_t> seen = scene_pass_.mark_seen(context, shown);
+    shown = scene.keep_shown(std::move(shown), seen);
+  });
   if (is_survey(options.show)) {
     ORIEL_TRY_VOID(clock_.time(Pass::kScene, [&] { return survey_pass_.draw(context, shown); }));
   } else {
@@ -205,23 +218,13 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
 
 FloatImage Renderer::read_frame() const {
   const IVec2 size = frame_size();
-  FloatImage out{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y), 4, {}};
-  const std::size_t row = 4 * std::size_t{out.width};
-  out.pixels.resize(row * out.height);
   frame_->framebuffer.bind();
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, out.pixels.data());
-  for (std::size_t low = 0, high = out.height; low + 1 < high--; ++low)
-    std::swap_ranges(&out.pixels[low * row], &out.pixels[low * row] + row, &out.pixels[high * row]);
-  return out;
+  return {static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y), 4,
+          read_pixels<float>(size, GL_RGBA, GL_FLOAT, 4)};
 }
 
 std::vector<float> Renderer::read_light() const {
-  const FloatImage rgba = read_frame();
-  std::vector<float> rgb;
-  rgb.reserve(rgba.pixels.size() / 4 * 3);
-  for (std::size_t i = 0; i < rgba.pixels.size(); i += 4) rgb.insert(rgb.end(), &rgba.pixels[i], &rgba.pixels[i] + 3);
-  return rgb;
+  return without_alpha(read_frame().pixels);
 }
 
 Status Renderer::take_light(const FloatImage& rgba) {
@@ -238,35 +241,27 @@ Status Renderer::take_light(const FloatImage& rgba) {
 }
 
 std::vector<std::int32_t> Renderer::read_reflective() const {
-  const auto width = static_cast<std::size_t>(frame_->light.width());
-  const auto height = static_cast<std::size_t>(frame_->light.height());
-  std::vector<std::uint8_t> stencil(width * height);
   frame_->resolve_depth_stencil();
   frame_->framebuffer.bind();
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, frame_->light.width(), frame_->light.height(), GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
   std::vector<std::int32_t> materials;
-  for (std::size_t y = height; y-- > 0;)
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint32_t value = stencil[y * width + x] & kReflectorBits;
-      materials.push_back(value == kMoverBits ? kMoverPixel
-                          : value > 0         ? static_cast<std::int32_t>(marked_[value - 1])
-                                              : -1);
-    }
+  for (const auto stencil : read_pixels<std::uint8_t>(frame_size(), GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1)) {
+    const std::uint32_t value = stencil & kReflectorBits;
+    materials.push_back(value == kMoverBits ? kMoverPixel
+                        : value > 0         ? static_cast<std::int32_t>(marked_[value - 1])
+                                            : -1);
+  }
   return materials;
 }
 
 Result<std::vector<std::uint8_t>> Renderer::read_display(float ev100, ToneCurve curve) {
-  const int width = frame_->light.width(), height = frame_->light.height();
-  const gpu::Texture2d color(gpu::kRgba8, width, height, nullptr);
+  const IVec2 size = frame_size();
+  const gpu::Texture2d color(gpu::kRgba8, size.x, size.y, nullptr);
   ORIEL_TRY(const gpu::Framebuffer framebuffer, gpu::Framebuffer::create("picture", &color, nullptr));
   framebuffer.bind();
   display_.draw(*frame_, ev100, curve);
-  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  const auto rgba = read_pixels<std::uint8_t>(size, GL_RGBA, GL_UNSIGNED_BYTE, 4);
   ORIEL_TRY_VOID(gpu::check_gl("reading the picture"));
-  return flipped(rgba, width, height);
+  return without_alpha(rgba);
 }
 
 }  // namespace oriel

@@ -5,16 +5,10 @@
 #include "player/gpu/raster_state.h"
 #include "player/passes/scene_pass.h"
 #include "player/reflections/convolve_pass.h"
+#include "player/scene/surface.h"
 
 namespace oriel {
 namespace {
-
-void draw_reflector(const GpuReflector& reflector, FrameStats& stats) {
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(reflector.index_count), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(std::uintptr_t{reflector.first_index} * sizeof(std::uint32_t)));
-  ++stats.draws;
-  stats.triangles += reflector.index_count / 3;
-}
 
 // Where strip `i` of those across a rectangle begins, along each axis: whole pixels of the frame, that hold all of it.
 IVec2 strip_edge(const NdcRect& screen, const View& view, int i) {
@@ -69,7 +63,7 @@ void ReflectorPass::begin_mask(const FrameContext& context, GLuint mark, GLuint 
 
 void ReflectorPass::draw_mask(const FrameContext& context, const GpuReflector& reflector, GLuint mark) const {
   begin_mask(context, mark, mark == kSeeThroughBit ? kSeeThroughBit : kReflectorBits);
-  draw_reflector(reflector, context.stats);
+  draw_indices(reflector.first_index, reflector.index_count, context.stats);
 }
 
 void ReflectorPass::ask_visible(const FrameContext& context, const GpuReflector& reflector, const NdcRect& screen,
@@ -85,7 +79,7 @@ void ReflectorPass::ask_visible(const FrameContext& context, const GpuReflector&
       glScissor(lower.x, lower.y, upper.x - lower.x, upper.y - lower.y);
       const gpu::Query& query = queries[static_cast<std::size_t>(axis * kMaskStrips + i)];
       glBeginQuery(GL_ANY_SAMPLES_PASSED, query.name());
-      draw_reflector(reflector, stats);
+      draw_indices(reflector.first_index, reflector.index_count, stats);
       glEndQuery(GL_ANY_SAMPLES_PASSED);
     }
   }
@@ -125,7 +119,7 @@ void ReflectorPass::draw_light(const FrameContext& context, const ReflectedImage
   compose_.set("u_missing", image.reflector.mean_radiance);
   set_surface(compose_, context, image.reflector);
   light.bind(0);  // last: what is uploaded on first use is bound meanwhile
-  draw_reflector(image.reflector, context.stats);
+  draw_indices(image.reflector.first_index, image.reflector.index_count, context.stats);
 }
 
 void ReflectorPass::draw_convolved(const FrameContext& context, const ReflectedImage& image, GLint value) const {
@@ -138,7 +132,7 @@ void ReflectorPass::draw_convolved(const FrameContext& context, const ReflectedI
   convolve_.set("u_blurred", 6);
   image.target.blurred.bind(6);
   set_convolution(convolve_, context, image);
-  draw_reflector(image.reflector, context.stats);
+  draw_indices(image.reflector.first_index, image.reflector.index_count, context.stats);
 }
 
 void ReflectorPass::draw_emitters(const FrameContext& context, const GpuReflector& reflector, GLint value) const {
@@ -149,7 +143,7 @@ void ReflectorPass::draw_emitters(const FrameContext& context, const GpuReflecto
   state.alpha_write = false;
   gpu::apply(state);
   set_surface(*emitters, context, reflector);
-  draw_reflector(reflector, context.stats);
+  draw_indices(reflector.first_index, reflector.index_count, context.stats);
 }
 
 void ReflectorPass::set_surface(const gpu::Program& program, const FrameContext& context,

@@ -76,8 +76,12 @@ Result<ScenePass::Shading> ScenePass::Shading::create(std::string_view name, gpu
   return out;
 }
 
-Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
+Result<ScenePass> ScenePass::create(const gpu::Device& device) {
+  const gpu::Dialect dialect = device.dialect;
   ScenePass pass;
+  if (device.shades_hidden) {
+    ORIEL_TRY(pass.seen_, gpu::Program::create("seen", dialect));
+  }
   ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
   ORIEL_TRY(pass.plain_depth_, gpu::Program::create("depth", dialect, "PLAIN"));
   ORIEL_TRY(pass.opaque_, Shading::create("scene", dialect));
@@ -131,6 +135,28 @@ void ScenePass::draw_depths(const FrameContext& context, std::span<const DrawBat
     set_cutout(program, scene, m);
     draw_batch(batch, stats);
   }
+}
+
+std::vector<std::uint32_t> ScenePass::mark_seen(const FrameContext& context, std::span<const DrawBatch> shown) const {
+  const auto& [scene, view, options, stats] = context;
+  std::vector<std::uint32_t> seen(scene.shown_indices().size() / 3);
+  const gpu::Buffer marks(GLenum{GL_SHADER_STORAGE_BUFFER}, std::span<const std::uint32_t>(seen));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, marks.name());
+  scene.bind_shown();
+  seen_.use();
+  seen_.set("u_clip_from_pack", view.clip_from_pack);
+  gpu::RasterState state;
+  state.depth_test = true;
+  state.color_write = false;
+  for (const DrawBatch& batch : shown) {
+    state.cull = cull_of(scene.pack().materials[batch.material]);
+    gpu::apply(state);
+    seen_.set("u_first", static_cast<int>(reinterpret_cast<std::uintptr_t>(batch.offsets[0]) / (3 * sizeof(seen[0]))));
+    draw_batch(batch, stats);
+  }
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(4 * seen.size()), seen.data());
+  return seen;
 }
 
 void ScenePass::draw_opaque(const FrameContext& context, std::span<const DrawBatch> shown, const SceneWeights& weights,

@@ -39,10 +39,13 @@ using DrawGlass = std::function<Result<bool>(std::size_t body)>;
 
 class ScenePass {
  public:
-  static Result<ScenePass> create(gpu::Dialect dialect);
+  static Result<ScenePass> create(const gpu::Device& device);
 
   // Depth of the opaque scene into the bound framebuffer. shown: what of it.
   void draw_depth(const FrameContext& context, std::span<const DrawBatch> shown) const;
+  // By triangle of the indices that are bound for what is shown, a range a batch: whether a sample of it is seen, over
+  // that depth. Waits for the device, which shades_hidden.
+  std::vector<std::uint32_t> mark_seen(const FrameContext& context, std::span<const DrawBatch> shown) const;
   // Light of the opaque scene, over that depth. Pixels whose reflector bits are set hold S already: it is kept and
   // added to, without the undirected part. reflective: materials with such pixels. change: what
   // movers take, if anything.
@@ -75,7 +78,7 @@ class ScenePass {
   const gpu::Program& set_material(const Shading& shading, const GpuScene& scene, std::uint32_t material,
                                    std::int32_t lightmap_page) const;
 
-  gpu::Program depth_, plain_depth_;
+  gpu::Program depth_, plain_depth_, seen_;
   // plain: of surfaces without normal map, cut-outs or change by movers, that are lit; reflected: those in the image of
   // a mirror.
   Shading opaque_, plain_, reflected_, transparent_;

@@ -94,18 +94,20 @@ std::vector<DrawBatch> visible_batches(std::span<const DrawRange> ranges, const 
   return batches;
 }
 
-ShownTriangles gather_visible(std::span<const DrawRange> ranges, std::span<const std::uint32_t> indices,
-                              const Frustum& frustum, const SeenMask& seen) {
-  ShownTriangles shown{visible_batches(ranges, frustum, seen), {}};
+ShownTriangles gather(std::vector<DrawBatch> batches, std::span<const std::uint32_t> indices,
+                      std::span<const std::uint32_t> kept) {
+  ShownTriangles shown{std::move(batches), {}};
   for (DrawBatch& batch : shown.batches) {
     const std::size_t first = shown.indices.size();
     for (std::size_t i = 0; i < batch.counts.size(); ++i) {
-      const auto* from = indices.data() + reinterpret_cast<std::uintptr_t>(batch.offsets[i]) / sizeof(std::uint32_t);
-      shown.indices.insert(shown.indices.end(), from, from + batch.counts[i]);
+      const auto from = reinterpret_cast<std::uintptr_t>(batch.offsets[i]) / sizeof(std::uint32_t);
+      for (std::size_t k = from; k < from + static_cast<std::size_t>(batch.counts[i]); k += 3)
+        if (kept.empty() || kept[k / 3] != 0) shown.indices.insert(shown.indices.end(), &indices[k], &indices[k] + 3);
     }
     batch.counts = {static_cast<std::int32_t>(shown.indices.size() - first)};
     batch.offsets = {reinterpret_cast<const void*>(first * sizeof(std::uint32_t))};
   }
+  std::erase_if(shown.batches, [](const DrawBatch& batch) { return batch.counts[0] == 0; });
   return shown;
 }
 

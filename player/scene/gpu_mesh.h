@@ -41,7 +41,7 @@ struct DrawBatch {
 // The opaque triangles that a frame shows.
 struct ShownTriangles {
   std::vector<DrawBatch> batches;
-  std::vector<std::uint32_t> indices;  // that the batches are ranges of; empty: those of the scene
+  std::vector<std::uint32_t> indices;  // that the batches are ranges of
 };
 
 // By group one byte, 0: not seen. Nothing: all groups are.
@@ -51,10 +51,10 @@ using SeenMask = std::optional<std::vector<std::uint8_t>>;
 std::vector<DrawBatch> visible_batches(std::span<const DrawRange> ranges, const Frustum& frustum,
                                        const SeenMask& seen = std::nullopt);
 
-// The like, with the indices of each batch put together: a range a batch, where there would be hundreds. indices: those
-// that the ranges are of.
-ShownTriangles gather_visible(std::span<const DrawRange> ranges, std::span<const std::uint32_t> indices,
-                              const Frustum& frustum, const SeenMask& seen);
+// The indices of each batch put together: a range a batch, where there would be hundreds. indices: those that the
+// batches are of. kept: by triangle of them, 0: it is left out; empty: all stay.
+ShownTriangles gather(std::vector<DrawBatch> batches, std::span<const std::uint32_t> indices,
+                      std::span<const std::uint32_t> kept = {});
 
 // Attributes 0 to 6 of the bound vertex array: those of shaders/passes/surface_vertex.glsl.
 void upload_vertices(const Mesh& mesh, std::vector<gpu::Buffer>& buffers);

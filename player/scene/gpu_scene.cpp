@@ -130,9 +130,17 @@ std::vector<DrawBatch> GpuScene::show(const Frustum& frustum, const SeenMask& se
   shown_buffer_.reset();
   chosen_ = {};
   if (!seen) return visible_batches(opaque_, frustum);
-  ShownTriangles shown = gather_visible(opaque_, indices_, frustum, seen);
+  return upload_shown(gather(visible_batches(opaque_, frustum, seen), indices_));
+}
+
+std::vector<DrawBatch> GpuScene::keep_shown(std::vector<DrawBatch> shown, std::span<const std::uint32_t> kept) {
+  return upload_shown(gather(std::move(shown), shown_indices(), kept));
+}
+
+std::vector<DrawBatch> GpuScene::upload_shown(ShownTriangles shown) {
+  shown_indices_ = std::move(shown.indices);
   glBindVertexArray(vertex_array_.name());
-  shown_buffer_.emplace(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(shown.indices));
+  shown_buffer_.emplace(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(shown_indices_));
   return std::move(shown.batches);
 }
 
@@ -160,10 +168,7 @@ std::vector<DrawBatch> GpuScene::show_fewer(const View& view, const SeenMask& se
   if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) make_fewer();
   if (!fewer_) return show(frustum, seen);
   chosen_ = fewer_->choose(view, kFewerPixels);
-  ShownTriangles shown = gather_visible(chosen_.ranges, fewer_->indices(), frustum, seen);
-  glBindVertexArray(vertex_array_.name());
-  shown_buffer_.emplace(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(shown.indices));
-  return std::move(shown.batches);
+  return upload_shown(gather(visible_batches(chosen_.ranges, frustum, seen), fewer_->indices()));
 }
 
 std::span<const DrawRange> GpuScene::bind_curved(const GpuCurvedReflector& reflector) const {

@@ -131,12 +131,15 @@ class GpuScene {
   }
   // The triangles of a see-through range from far to near, as the bound geometry's indices: draws begin at 0.
   gpu::Buffer bind_far_to_near(const DrawRange& range, const View& view) const;
-  // The opaque triangles in the frustum, without groups that are not seen; uploads their indices. For draws after
-  // bind_shown(), until the next call.
+  // The opaque triangles in the frustum, without groups that are not seen. For draws after bind_shown(), until the next
+  // call.
   std::vector<DrawBatch> show(const Frustum& frustum, const SeenMask& seen);
   // The same for a coarse frame, with fewer triangles where the scene has many. They are made in the background, from
   // the first such frame on: until they are there, it is all of them.
   std::vector<DrawBatch> show_fewer(const View& view, const SeenMask& seen);
+  // Of what these gave, the triangles that are kept (gather()), a range a batch; likewise.
+  std::vector<DrawBatch> keep_shown(std::vector<DrawBatch> shown, std::span<const std::uint32_t> kept);
+  const std::vector<std::uint32_t>& shown_indices() const { return shown_buffer_ ? shown_indices_ : indices_; }
   // Waits for them.
   void make_fewer();
   // A curved reflector's triangles, those of them that are shown; binds what they are of.
@@ -196,6 +199,7 @@ class GpuScene {
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   void begin_fewer();
+  std::vector<DrawBatch> upload_shown(ShownTriangles shown);
   void move_lamps(std::span<const MoverPose> poses);
   // views: lamps that have moved are seen from it, too.
   void list_emitters(GpuReflector& reflector, const Reflector& baked, bool views) const;
@@ -214,12 +218,13 @@ class GpuScene {
   gpu::VertexArray vertex_array_;
   std::vector<gpu::Buffer> buffers_;
   gpu::Buffer index_buffer_;
-  std::optional<gpu::Buffer> shown_buffer_;  // of what is shown, where that is not a few ranges of all
-  std::vector<std::uint32_t> indices_;       // of index_buffer_
-  std::optional<FewerTriangles> fewer_;      // once they are made
-  gpu::Buffer fewer_buffer_;                 // of their indices
-  std::future<FewerTriangles> coming_;       // reads pack_, opaque_ and indices_
-  FewerTriangles::Chosen chosen_;            // of the frame, empty where it shows all
+  std::optional<gpu::Buffer> shown_buffer_;   // of what is shown, where that is not ranges of all
+  std::vector<std::uint32_t> shown_indices_;  // of that
+  std::vector<std::uint32_t> indices_;        // of index_buffer_
+  std::optional<FewerTriangles> fewer_;       // once they are made
+  gpu::Buffer fewer_buffer_;                  // of their indices
+  std::future<FewerTriangles> coming_;        // reads pack_, opaque_ and indices_
+  FewerTriangles::Chosen chosen_;             // of the frame, empty where it shows all
   gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;
   GpuSharpLight sharp_light_;

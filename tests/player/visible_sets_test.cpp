@@ -62,11 +62,20 @@ TEST(VisibleBatches, GatheredIndicesAreTheSameTriangles) {
   std::vector<std::uint32_t> indices;
   for (std::uint32_t i = 0; i < 12; ++i) indices.push_back(100 + i);
   const SeenMask seen = std::vector<std::uint8_t>{1, 0, 1, 1};
-  const ShownTriangles shown = gather_visible(ranges, indices, between(-1, 10), seen);
+  const ShownTriangles shown = gather(visible_batches(ranges, between(-1, 10), seen), indices);
   EXPECT_THAT(shown.indices, ElementsAre(100, 101, 102, 106, 107, 108, 109, 110, 111));
   ASSERT_EQ(shown.batches.size(), 2u);
   EXPECT_THAT(shown.batches[0].counts, ElementsAre(6));
   EXPECT_THAT(starts(shown.batches[1]), ElementsAre(6u));
+}
+
+TEST(VisibleBatches, OnlyKeptTrianglesAreGathered) {
+  const auto ranges = row({{0, 0}, {0, 0}, {1, 0}});
+  const std::vector<std::uint32_t> indices{0, 1, 2, 3, 4, 5, 6, 7, 8}, kept{0, 1, 0};
+  const ShownTriangles shown = gather(visible_batches(ranges, between(-1, 10)), indices, kept);
+  EXPECT_THAT(shown.indices, ElementsAre(3, 4, 5));
+  ASSERT_EQ(shown.batches.size(), 1u) << "none is left of the other";
+  EXPECT_THAT(shown.batches[0].counts, ElementsAre(3));
 }
 
 TEST(SortedRanges, AreDividedIntoRuns) {
@@ -148,6 +157,47 @@ TEST_F(VisibleSetsFrame, SeeThroughPartsStay) {
   Pack pack = half_seen();
   pack.materials[0].alpha_mode = AlphaMode::kBlend;
   EXPECT_GT(draw(pack, at({0, 0, 1.5f}), 8, 8).at(1, 4).x, 1);
+}
+
+class HiddenTriangles : public FrameTest {
+ protected:
+  // A quad over the left half of the view, a place within it behind which ten more stand, and one to its right.
+  static Pack behind(const Material& front) {
+    Pack pack;
+    pack.materials = {front, Material()};
+    pack.lightmaps.push_back(flat_page(Vec3(100)));
+    for (int i = 0; i < 10; ++i)
+      add_quad(pack, {-1.6f, -0.5f, -2 - 0.01f * static_cast<float>(i)}, {1, 0, 0}, {0, 1, 0}, 1, 0);
+    add_quad(pack, {-1, -1, -1}, {1, 0, 0}, {0, 2, 0}, 0, 0);
+    add_quad(pack, {0.53f, -0.52f, -2}, {1, 0.1f, 0}, {0, 1, 0}, 1, 0);
+    return pack;
+  }
+  Picture draw_with(bool marks, const Pack& pack, int samples) {
+    gpu::Device device = device_;
+    device.shades_hidden = marks;
+    auto renderer = Renderer::create(device);
+    EXPECT_TRUE(renderer);
+    renderer_ = std::move(*renderer);
+    FrameOptions options;
+    options.samples = samples;
+    Camera camera;
+    camera.vertical_fov_rad = kPi / 2;
+    return draw(pack, camera, 64, 64, options);
+  }
+};
+
+TEST_F(HiddenTriangles, AreNotShadedWhereADeviceWouldShadeThem) {
+  if (!device_.shades_hidden) GTEST_SKIP() << "this device does not";
+  Material front;
+  const Picture all = draw_with(false, behind(front), 4), seen = draw_with(true, behind(front), 4);
+  EXPECT_EQ(seen.rgb, all.rgb);
+  EXPECT_EQ(all.stats.triangles, 2 * 24u) << "depth and light";
+  EXPECT_EQ(seen.stats.triangles, 2 * 24u + 4u) << "depth, marks, and the light of two quads";
+  EXPECT_EQ(draw_with(true, behind(front), 1).stats.triangles, 2 * 24u) << "one sample: tested before it is shaded";
+  front.alpha_mode = AlphaMode::kMask;
+  front.alpha_cutoff = 0.5f;
+  front.alpha = 0.2f;  // cut away: one of the ten is seen
+  EXPECT_EQ(draw_with(true, behind(front), 4).rgb, draw_with(false, behind(front), 4).rgb);
 }
 
 }  // namespace
