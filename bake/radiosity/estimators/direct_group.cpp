@@ -28,7 +28,7 @@ DirectGroup::DirectGroup(const DirectLight& direct, std::span<const std::uint32_
 void DirectGroup::run(DirectSums& sums) {
   sample_polygon_lights();
   for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
-    sample_punctual_light(l);
+    sample_as_needed([&](auto... samples) { sample_punctual_light(l, samples...); });
     if (d_.sharp_.charts) finish_sharp(l);
     finish_light(Vec3(1), scene().lights[l].light_group, hours_of(scene().lights[l]), per_half_);
   }
@@ -36,7 +36,7 @@ void DirectGroup::run(DirectSums& sums) {
   const auto [centre, radius] = sphere_about_points();
   for (std::uint32_t i = 0; i < mirrored.size(); ++i) {
     if (mirrored[i].order > d_.t_.options.max_bounces || !mirrored[i].may_reach(centre, radius)) continue;
-    sample_mirrored_light(i);
+    sample_as_needed([&](auto... samples) { sample_mirrored_light(i, samples...); });
     const Light& light = scene().lights[mirrored[i].light];
     finish_light(Vec3(1), light.light_group, hours_of(light), per_half_);
   }
@@ -169,16 +169,27 @@ void DirectGroup::add_polygon_sample(const PolygonView& view, const Receiver& re
   }
 }
 
-void DirectGroup::sample_punctual_light(std::uint32_t l) {
+template <class Sample>
+void DirectGroup::sample_as_needed(const Sample& sample) {
+  const std::uint32_t first = std::min(per_half_, LightCalibration::kSamples);
+  sample(0u, first, true);
+  if (first == per_half_) return;
+  trace();
+  const auto all = [&](const auto& is) { return std::ranges::all_of(tallies_, is); };
+  const auto none = [](const Tally& t) { return t.transmitted[0] + t.transmitted[1] == Vec3(0); };
+  if (!all(none)) sample(first, per_half_, !all([](const Tally& t) { return t.transmitted == t.proposal_weight; }));
+}
+
+void DirectGroup::sample_punctual_light(std::uint32_t l, std::uint32_t first, std::uint32_t end, bool trace_rays) {
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
-    if (d_.sharp_.left_out && is_sharp(l, point.texel)) continue;
+    if (point.k < first || point.k >= end || (d_.sharp_.left_out && is_sharp(l, point.texel))) continue;
     Sampler sampler(d_.seed_ + seeds::kSharpLight + l, stream_of(list_[point.texel], point.half), point.k);
     const LightSample s = d_.t_.lights.sample_light(l, point.sample_point.origin, sampler.next2());
     const Vec3 value = s.estimate * incidence(point.sample_point.receiver(), s.direction, true);
     if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
     tallies_[point.texel].unoccluded[point.half] += value;
-    add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, true, false}, value);
+    add_shadow_ray(p, {point.sample_point.origin, s.direction, trace_rays ? s.distance : 0, true, false}, value);
   }
 }
 
@@ -189,10 +200,11 @@ std::pair<DVec3, double> DirectGroup::sphere_about_points() const {
   return {0.5 * (DVec3(lower) + DVec3(upper)), 0.5 * double{glm::length(upper - lower)}};
 }
 
-void DirectGroup::sample_mirrored_light(std::uint32_t i) {
+void DirectGroup::sample_mirrored_light(std::uint32_t i, std::uint32_t first, std::uint32_t end, bool) {
   const VirtualLights& mirrored = d_.t_.lights.mirrored();
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
+    if (point.k < first || point.k >= end) continue;
     Sampler sampler(d_.seed_ + seeds::kMirroredLight + i, stream_of(list_[point.texel], point.half), point.k);
     MirroredSample s = mirrored.sample(i, d_.t_.lights, point.sample_point.origin, sampler.next2());
     const Vec3 value = s.endless * incidence(point.sample_point.receiver(), s.direction, true);

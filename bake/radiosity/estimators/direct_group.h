@@ -62,11 +62,15 @@ class DirectGroup {
   // Adds a shadow ray to a random point of the light above the horizon. Points below it have no weight and are redrawn,
   // so that a light barely above the horizon gets samples, too.
   void add_polygon_sample(const PolygonView& view, const Receiver& receiver, std::uint32_t p, Sampler& sampler);
-  void sample_punctual_light(std::uint32_t l);
+  // Calls sample(first, end, trace_rays) for samples first <= k < end of each half. Where the first ones of all texels
+  // see the light, further ones take no rays, and where none does, there are none.
+  template <class Sample>
+  void sample_as_needed(const Sample& sample);
+  void sample_punctual_light(std::uint32_t l, std::uint32_t first, std::uint32_t end, bool trace_rays);
   std::pair<DVec3, double> sphere_about_points() const;
   // Samples the virtual image of a light. The unoccluded irradiance is that of an endless mirror: the mirror's edge
   // acts as an occluder.
-  void sample_mirrored_light(std::uint32_t i);
+  void sample_mirrored_light(std::uint32_t i, std::uint32_t first, std::uint32_t end, bool trace_rays);
   void sample_frosted();
   void sample_frosted(std::uint32_t first, std::uint32_t end, float weight);
   void add_shadow_ray(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group = kNoGroup);

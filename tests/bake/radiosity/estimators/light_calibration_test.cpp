@@ -10,13 +10,16 @@
 namespace oriel::test {
 namespace {
 
-// A floor of 3 m under two lamps; a board hides one of them from all of it.
-Scene two_lamps(bool board) {
+// A floor of 3 m under two lamps; a board hides one of them from all of it. points: they have no size.
+Scene two_lamps(bool board, bool points = false) {
   SceneParts parts;
   const auto matt = parts.diffuse(Vec3(0.5f));
   parts.quad("floor", matt, {0, 0, 0}, {0, 0, 3}, {3, 0, 0});
-  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(100)), {1, 2.5f, 1}, {1, 0, 0}, {0, 0, 1});
-  parts.quad("hidden lamp", parts.diffuse(Vec3(0), Vec3(70)), {1, 4, 1}, {1, 0, 0}, {0, 0, 1});
+  for (const float height : {2.5f, 4.0f})
+    if (points)
+      parts.scene().lights.emplace_back().position = {1.5f, height, 1.5f};
+    else
+      parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(100)), {1, height, 1}, {1, 0, 0}, {0, 0, 1});
   if (board) parts.box("board", matt, {-9, 3, -9}, {12, 3.2f, 12});
   return parts.finish();
 }
@@ -51,6 +54,17 @@ TEST(LightCalibration, TellsWhatIsSeenWhollyOrNotAtAll) {
     EXPECT_NEAR(many.value[i].g, few.value[i].g, 0.05 * few.value[i].g) << "a texel's mean, of more points";
     EXPECT_EQ(many.variance[i], Vec3(0));
   }
+}
+
+TEST(LightCalibration, IsOfPointsToo) {
+  Lit lit(two_lamps(true, true));
+  const DirectSums few = lit.direct(2);
+  const std::uint64_t rays = lit.rays;
+  const DirectSums many = lit.direct(8);
+  // Rays find further points of the texel, four a half. Shadow rays to both lamps would be twelve more.
+  EXPECT_EQ(lit.rays, rays + 2 * 4 * lit.listed.floor.size());
+  for (const std::uint32_t i : lit.listed.floor)
+    EXPECT_NEAR(many.value[i].g, few.value[i].g, 0.05 * few.value[i].g) << "a texel's mean, of more points";
 }
 
 // The upper lamp shines through the rim of the lower one's shadow: there all samples are traced.
