@@ -14,9 +14,8 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kFewPoints = 1 << 14;  // lower limit on points of a pass
-constexpr std::size_t kPointsATexel = 4;
-constexpr double kUsualError = 0.02;  // without a requested error
-constexpr double kNegligible = 0.4;   // of the error allowed: points of cells below it are not stored
+constexpr double kUsualError = 0.02;         // without a requested error
+constexpr double kNegligible = 0.4;          // of the error allowed: points of cells below it are not stored
 
 // The floor of frame pixels (texels/frame_error.h), for one view of the whole scene, luminance, lux.
 double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<const float> importance) {
@@ -228,7 +227,7 @@ Status add_detail(const RadiosityTask& task, const TexelLight& texel_light, Radi
     task.context.warning("coarser-detail", "the lightmap's pages are too large for finer cells");
     return {};
   }
-  goal.most_points = std::max(kFewPoints, kPointsATexel * texel_light.texels.count());
+  goal.most_points = std::max(kFewPoints, texel_light.texels.count());
   return DetailMaker(task, texel_light, goal, light).run();
 }
 
