@@ -27,16 +27,14 @@ void Forecast::expect(std::string_view part, double seconds) {
 
 void Forecast::at(std::string_view part, double done, double now_s) {
   const std::size_t i = index_of(part);
-  // A part may come again, as refinement does after it was verified; what comes out of turn is nobody's.
-  const bool again = i == index_of("refinement") && current_ != kNone && current_ <= index_of("verification");
-  if (i == kNone || (current_ != kNone && i < current_ && !again)) return;
+  if (i == kNone || (current_ != kNone && i < current_)) return;  // what comes out of turn is nobody's
   if (i != current_) {
     if (current_ != kNone) took_s_[current_] = now_s - begun_s_;
     current_ = i;
     begun_s_ = now_s;
     done_ = 0;
   }
-  done_ = again ? done : std::max(done_, std::clamp(done, 0.0, 1.0));
+  done_ = std::max(done_, std::clamp(done, 0.0, 1.0));
   told_s_ = now_s;
 }
 

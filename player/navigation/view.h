@@ -25,7 +25,8 @@ struct View {
 // scene nearer than a 64th of its radius. People's eyes keep 25 cm from walls, and at 90° the corners of a wide picture
 // are 2.3 times as far as its near plane. Any camera whose numbers are finite gives finite matrices: a direction or
 // field of view that means nothing is replaced by the nearest one that does.
-View make_view(const Camera& camera, int width, int height, const Bounds& bounds, float closest_m = 0.1f);
+inline constexpr float kNearest_m = 0.1f;  // of people's size
+View make_view(const Camera& camera, int width, int height, const Bounds& bounds, float closest_m = kNearest_m);
 
 // The view's projection with another far plane, at least 0.1 % behind the near one.
 Mat4 clip_from_view_to(const View& view, float far);

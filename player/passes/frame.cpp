@@ -151,7 +151,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
 
   std::vector<DrawBatch> shown = choose_shown(context);
   clock_.time(Pass::kDepth, [&] {
-    const bool marks = device_.shades_hidden && frame_->samples() > 1;
+    // Movers' light is taken at other places of pixels than the samples.
+    const bool marks = device_.shades_hidden && frame_->samples() > 1 && scene.pack().movers.empty();
     if (marks) shown = scene.keep_shown(std::move(shown), {});
     scene_pass_.draw_depth(context, shown);
     if (!marks || shown.empty()) return;

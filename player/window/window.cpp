@@ -193,7 +193,8 @@ class Loop {
   }
 
   View view_of(int width, int height) const {
-    return make_view(session_.camera, width, height, bounds_with_movers(*scene_, session_.frame.poses));
+    const Bounds bounds = bounds_with_movers(*scene_, session_.frame.poses);
+    return make_view(session_.camera, width, height, bounds, kNearest_m * floors_.size());
   }
 
   // What the frame shows comes first. Some of it before the first frame: most packs are there then.

@@ -84,8 +84,7 @@ class CachedEstimator : public LightEstimator {
     little_seen_ = little_seen(order_, importance_, kLittleSeen * error * error);
     ORIEL_TRY_VOID(first_direct());
     // With limited bounces rays find this light, which count bounces.
-    if (options_.bounces == 0)
-      ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
+    if (options_.bounces == 0) ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_)));
     irradiance_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
     const SweepOptions how = sweep_options(options_, error, texels_.count());
@@ -105,10 +104,10 @@ class CachedEstimator : public LightEstimator {
   }
 
   // If time runs out, the particles so far count; without any, rays find their light.
-  Status follow_lamps(std::uint64_t per_half, LampLight& lamps, HalfSums& sums) {
-    ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, query_, per_half, task_.paths, lamps); }));
-    if (lamps.particles == 0) return {};
-    set_additional(lamps, sums);
+  Status follow_lamps(std::uint64_t per_half) {
+    ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, query_, per_half, task_.paths, lamps_); }));
+    if (lamps_.particles == 0) return {};
+    set_additional(lamps_, gathered_);
     query_.leave_out_lamps();
     return {};
   }
@@ -241,7 +240,7 @@ class CachedEstimator : public LightEstimator {
       if (direct.pays_more_than(gathered) && !(list = worst(direct)).empty()) {
         ORIEL_TRY_VOID(refine_direct(list, direct.max_samples));
       } else if (particles_pay(lamps_, gathered_, light(), frames_)) {
-        ORIEL_TRY_VOID(follow_lamps(2 * lamps_.particles, lamps_, gathered_));
+        ORIEL_TRY_VOID(follow_lamps(2 * lamps_.particles));
         update_estimate();
       } else if (!(list = worst(gathered)).empty()) {
         ORIEL_TRY_VOID(refine_gathered(list));

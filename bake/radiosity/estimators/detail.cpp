@@ -227,7 +227,9 @@ Status add_detail(const RadiosityTask& task, const TexelLight& texel_light, Radi
     task.context.warning("coarser-detail", "the lightmap's pages are too large for finer cells");
     return {};
   }
-  goal.most_points = std::max(kFewPoints, texel_light.texels.count());
+  const double finer = std::clamp(kUsualError / goal.error, 1.0, 4.0);
+  goal.most_points =
+      std::max(kFewPoints, static_cast<std::size_t>(finer * static_cast<double>(texel_light.texels.count())));
   return DetailMaker(task, texel_light, goal, light).run();
 }
 

@@ -171,16 +171,20 @@ void DirectGroup::add_polygon_sample(const PolygonView& view, const Receiver& re
 
 template <class Sample>
 void DirectGroup::sample_as_needed(const Sample& sample) {
-  const std::uint32_t first = std::min(per_half_, LightCalibration::kSamples);
-  sample(0u, first, true);
-  if (first == per_half_) return;
+  const std::uint32_t first = std::max(LightCalibration::kSamples, per_half_ / 4);
+  traces_.assign(tallies_.size(), true);
+  sample(0u, std::min(first, per_half_));
+  const bool told = shadow_rays_.size() >= kTelling;
+  if (first >= per_half_) return;
   trace();
-  const auto all = [&](const auto& is) { return std::ranges::all_of(tallies_, is); };
-  const auto none = [](const Tally& t) { return t.transmitted[0] + t.transmitted[1] == Vec3(0); };
-  if (!all(none)) sample(first, per_half_, !all([](const Tally& t) { return t.transmitted == t.proposal_weight; }));
+  const auto is_dark = [](const Tally& t) { return t.transmitted[0] + t.transmitted[1] == Vec3(0); };
+  if (told && std::ranges::all_of(tallies_, is_dark)) return;
+  if (told && std::ranges::all_of(tallies_, [](const Tally& t) { return t.transmitted == t.proposal_weight; }))
+    std::ranges::transform(tallies_, traces_.begin(), is_dark);  // none was asked for
+  sample(first, per_half_);
 }
 
-void DirectGroup::sample_punctual_light(std::uint32_t l, std::uint32_t first, std::uint32_t end, bool trace_rays) {
+void DirectGroup::sample_punctual_light(std::uint32_t l, std::uint32_t first, std::uint32_t end) {
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
     if (point.k < first || point.k >= end || (d_.sharp_.left_out && is_sharp(l, point.texel))) continue;
@@ -189,7 +193,8 @@ void DirectGroup::sample_punctual_light(std::uint32_t l, std::uint32_t first, st
     const Vec3 value = s.estimate * incidence(point.sample_point.receiver(), s.direction, true);
     if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
     tallies_[point.texel].unoccluded[point.half] += value;
-    add_shadow_ray(p, {point.sample_point.origin, s.direction, trace_rays ? s.distance : 0, true, false}, value);
+    add_shadow_ray(p, {point.sample_point.origin, s.direction, traces_[point.texel] ? s.distance : 0, true, false},
+                   value);
   }
 }
 
@@ -200,7 +205,7 @@ std::pair<DVec3, double> DirectGroup::sphere_about_points() const {
   return {0.5 * (DVec3(lower) + DVec3(upper)), 0.5 * double{glm::length(upper - lower)}};
 }
 
-void DirectGroup::sample_mirrored_light(std::uint32_t i, std::uint32_t first, std::uint32_t end, bool) {
+void DirectGroup::sample_mirrored_light(std::uint32_t i, std::uint32_t first, std::uint32_t end) {
   const VirtualLights& mirrored = d_.t_.lights.mirrored();
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];

@@ -24,7 +24,8 @@ class DirectGroup {
  private:
   static constexpr std::uint32_t kNoGroup = ~0u;
   static constexpr std::uint32_t kSamplesAPoint = 4;  // of extra points: to find one takes several rays
-  static constexpr int kTries = 16;                   // to find a point of a light above the horizon
+  static constexpr std::size_t kTelling = 64;  // shadow rays to a light that agree: a texel's own few may by chance
+  static constexpr int kTries = 16;            // to find a point of a light above the horizon
 
   struct Point {
     SamplePoint sample_point;
@@ -62,15 +63,15 @@ class DirectGroup {
   // Adds a shadow ray to a random point of the light above the horizon. Points below it have no weight and are redrawn,
   // so that a light barely above the horizon gets samples, too.
   void add_polygon_sample(const PolygonView& view, const Receiver& receiver, std::uint32_t p, Sampler& sampler);
-  // Calls sample(first, end, trace_rays) for samples first <= k < end of each half. Where the first ones of all texels
-  // see the light, further ones take no rays, and where none does, there are none.
+  // Calls sample(first, end) for samples first <= k < end of each half, at first a quarter. Where kTelling of them or
+  // more see the light, and none does not, further ones of those texels take no rays; where none does, there are none.
   template <class Sample>
   void sample_as_needed(const Sample& sample);
-  void sample_punctual_light(std::uint32_t l, std::uint32_t first, std::uint32_t end, bool trace_rays);
+  void sample_punctual_light(std::uint32_t l, std::uint32_t first, std::uint32_t end);
   std::pair<DVec3, double> sphere_about_points() const;
   // Samples the virtual image of a light. The unoccluded irradiance is that of an endless mirror: the mirror's edge
   // acts as an occluder.
-  void sample_mirrored_light(std::uint32_t i, std::uint32_t first, std::uint32_t end, bool trace_rays);
+  void sample_mirrored_light(std::uint32_t i, std::uint32_t first, std::uint32_t end);  // traces all of them
   void sample_frosted();
   void sample_frosted(std::uint32_t first, std::uint32_t end, float weight);
   void add_shadow_ray(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group = kNoGroup);
@@ -109,6 +110,7 @@ class DirectGroup {
   bool directional_;
   std::vector<Point> points_;
   std::vector<Tally> tallies_;
+  std::vector<char> traces_;  // by texel: samples of the current punctual light take shadow rays
   GroupedLight grouped_, grouped_difference_, grouped_sharp_;  // by texel of the list, of all lights so far
   std::array<GroupedLight, kHalves> grouped_transmitted_;      // by half, of the randomly chosen lights now
   std::vector<Ray> rays_to_trace_;

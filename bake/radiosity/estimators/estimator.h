@@ -57,7 +57,7 @@ struct TexelLight {
 class LightEstimator {
  public:
   virtual ~LightEstimator() = default;
-  // Refines until the error of frames, relative, is as given (0: never), all samples are taken, or
+  // Called once. Refines until the error of frames, relative, is as given (0: never), all samples are taken, or
   // RadiosityOptions::enough. Error kStopped.
   virtual Status refine(double error) = 0;
   // Writes the estimate as it stands: light, standard error, state and visible fraction of each covered texel, and the

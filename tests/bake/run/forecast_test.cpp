@@ -38,17 +38,6 @@ TEST(ForecastTest, WhatPartsTookTellsTheOthers) {
   EXPECT_NEAR(*forecast.left(100), 0, 1e-9);
 }
 
-// Verification may find that more refinement is due.
-TEST(ForecastTest, RefinementMayComeAgain) {
-  Forecast forecast;
-  forecast.expect("first light", 1);
-  forecast.at("first light", 0, 0);
-  forecast.at("verification", 0, 4);
-  forecast.at("refinement", 0.5, 5);
-  forecast.at("views", 0.1, 6);
-  EXPECT_GT(*forecast.left(6), 0.5);
-}
-
 // Error falls as the inverse of the work: a goal of a quarter takes four times the work.
 TEST(ProgressEstimateTest, IsExactForAPower) {
   ProgressEstimate progress(0.25, 100, HUGE_VAL);
