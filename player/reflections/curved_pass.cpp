@@ -148,7 +148,9 @@ void CurvedPass::draw_shaded(const FrameContext& context, const Shown& shown, GL
   set_lobe(shaded_light_, context, *shown.reflector);
   set_reflectance(shaded_light_, context, *shown.reflector);
   canvas_.light.bind(kCurvedShaded);
+  canvas_.normals.bind(kCurvedNormals);
   shaded_light_.set("u_shaded", kCurvedShaded);
+  shaded_light_.set("u_normals", kCurvedNormals);
   shaded_light_.set("u_id", static_cast<float>(shown.value));
   draw_reflector(context, *shown.reflector);
   ++context.stats.reflectors;

@@ -17,7 +17,7 @@ uniform sampler2D u_table;
 uniform int u_components;
 invariant gl_Position;
 out vec3 v_position;
-out vec3 v_normal;
+centroid out vec3 v_normal;
 out vec2 v_uv;
 out vec4 v_color;
 out vec2 v_normal_uv;

@@ -10,7 +10,7 @@ uniform sampler2D u_reflectance;
 uniform int u_reflectance_row;   // -1: reflects nothing
 uniform int u_reflectance_count;
 in vec3 v_position;
-in vec3 v_normal;
+centroid in vec3 v_normal;
 in vec2 v_uv;
 in vec4 v_color;
 layout(location = 0) out vec4 o_light;

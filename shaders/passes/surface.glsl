@@ -20,7 +20,7 @@ uniform int u_reflectance_row;  // -1: reflects nothing
 uniform int u_reflectance_count;
 
 in vec3 v_position;
-in vec3 v_normal;
+centroid in vec3 v_normal;
 in vec2 v_normal_uv;
 in vec4 v_tangent;
 

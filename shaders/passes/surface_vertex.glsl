@@ -9,7 +9,7 @@ layout(location = 6) in vec4 a_tangent;
 uniform mat4 u_clip_from_pack;
 invariant gl_Position;
 out vec3 v_position;
-out vec3 v_normal;
+centroid out vec3 v_normal;
 out vec2 v_uv;
 centroid out vec3 v_lightmap_uv;  // lib/lightmap_uv.glsl
 #ifdef SHARP

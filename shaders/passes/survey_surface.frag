@@ -8,7 +8,7 @@ uniform sampler2D u_survey;
 uniform bool u_surveyed;  // false: no lightmap
 
 in vec3 v_position;
-in vec3 v_normal;
+centroid in vec3 v_normal;
 in vec2 v_uv;
 centroid in vec3 v_lightmap_uv;
 in vec4 v_color;

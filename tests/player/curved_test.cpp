@@ -191,5 +191,65 @@ TEST_F(CurvedFrames, AGlassBallReflectsToo) {
   EXPECT_LT(glm::length(picture.at(30, 25) - Vec3(0.75f * 4 + 0.25f * 10)), 0.1f);
 }
 
+// Two sides of one reflector that meet in a slanted ridge, and between them a strip of `bevel` metres over which the
+// normal turns from one to the other.
+constexpr float kSlant = 0.3f;
+Pack ridge_pack(const Vec3& centre, const SurroundMap& map, float bevel) {
+  Pack pack = ball_pack({}, map);
+  pack.mesh.positions.clear();
+  pack.mesh.normals.clear();
+  for (const float u : {-0.5f, -0.5f * bevel, 0.5f * bevel, 0.5f})
+    for (const float v : {-0.5f, 0.5f}) {
+      const Vec3 across(std::cos(kSlant), std::sin(kSlant), 0), along(-across.y, across.x, 0), out(0, 0, 1);
+      pack.mesh.positions.push_back(centre + u * across + v * along - 0.75f * std::abs(u) * out);
+      pack.mesh.normals.push_back((pack.mesh.normals.size() < 4 ? -0.6f : 0.6f) * across + 0.8f * out);
+    }
+  pack.mesh.uvs.assign(8, Vec2(0));
+  pack.mesh.lightmap_uvs.assign(8, Vec2(0));
+  pack.mesh.indices = {0, 2, 3, 0, 3, 1, 2, 4, 5, 2, 5, 3, 4, 6, 7, 4, 7, 5};
+  pack.mesh.parts[0].index_count = 18;
+  pack.curved_reflectors[0].indices = pack.mesh.indices;
+  return pack;
+}
+
+// Each sample of a pixel on the ridge shows its own side's reflection. One side's for all made dashes of edges.
+TEST_F(CurvedFrames, SamplesOnAnEdgeShowTheirOwnSides) {
+  const Vec3 centre(0, 1.5f, 0);
+  constexpr int kWidth = 120, kHeight = 100, kSub = 16;
+  FrameOptions options;
+  options.show = Show::kMKR;
+  options.samples = 4;
+  const SurroundMap map = room_map(centre, 128, [](const Vec3& at) { return Vec3(at.x < 0 ? 10 : 90); });
+  const Picture p =
+      draw(ridge_pack(centre, map, 0), looking_at(centre + Vec3(0, 0, 2), centre), kWidth, kHeight, options);
+  int edges = 0;
+  for (int y = 35; y < 65; ++y)
+    for (int x = 40; x < 80; ++x) {
+      int right = 0;
+      for (int k = 0; k < kSub * kSub; ++k) {
+        const Vec2 at = Vec2(x, y) + (Vec2(k % kSub, k / kSub) + 0.5f) / float(kSub) - 0.5f * Vec2(kWidth, kHeight);
+        right += std::cos(kSlant) * at.x - std::sin(kSlant) * at.y > 0;
+      }
+      const float share = static_cast<float>(right) / (kSub * kSub);
+      edges += share > 0.1f && share < 0.9f;
+      EXPECT_NEAR((p.at(x, y).x - 10) / 80, share, 0.3f) << "four samples know it to about 1/4";
+    }
+  EXPECT_GT(edges, 20);
+}
+
+// Normals are those of the strip where a pixel's middle lies beside it: beyond, they would turn until it is seen flat,
+// where it reflects five times as much.
+TEST_F(CurvedFrames, NormalsEndWithTheirTriangle) {
+  const Vec3 centre(0, 1.5f, 0);
+  FrameOptions options;
+  options.show = Show::kMKR;
+  options.samples = 4;
+  Pack pack = ridge_pack(centre, room_map(centre, 64, [](const Vec3&) { return Vec3(10); }), 0.002f);
+  pack.fresnel_maps[0].table = {Vec3(1), Vec3(1), Vec3(1), Vec3(0.2f), Vec3(0.2f)};  // from a cosine of 9 / 16 on
+  const Picture p = draw(pack, looking_at(centre + Vec3(0, 0, 2), centre), 120, 100, options);
+  for (int y = 35; y < 65; ++y)
+    for (int x = 40; x < 80; ++x) EXPECT_NEAR(p.at(x, y).x, 2, 0.02f) << x << ", " << y;
+}
+
 }  // namespace
 }  // namespace oriel

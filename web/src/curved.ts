@@ -86,6 +86,7 @@ export class CurvedReflections {
         this.shadedLight.use();
         this.shadedLight.set('u_id', value);
         bind(gl, 'u_shaded', this.canvas!.light);
+        bind(gl, 'u_normals', this.canvas!.normals);
       }
       this.drawLight(scene, target, curved, exact ? this.shadedLight : this.light, state, options);
     }
