@@ -5,7 +5,6 @@ uniform highp sampler2D u_sharp_triangles;  // likewise, four texels each: corne
 uniform highp sampler2D u_sharp_lamps;      // a row each, see lamp_at()
 
 const uint kSharpSplit = 0xffffffffu;
-const int kMostSharpSplits = 5;
 const float kMostSharpLux = 1.5e5;  // close to a lamp: half floats hold what white reflects of it
 
 struct SharpLamp {
@@ -58,6 +57,7 @@ float extent(vec3 v) { return dot(abs(v), vec3(1.0)); }
 
 #ifdef SUNS  // some lamps are
 #define COVER uvec2
+#define IS_FULL(cover) ((cover.x & cover.y) == 0xffffffffu)
 // Which of 64 places of a unit disk, all shares of it alike, have dot(place, n) + off >= 0, n being across, normalized.
 uvec2 half_disk(vec2 across, float off) {
   if (off >= 1.0) return uvec2(0xffffffffu);
@@ -77,6 +77,7 @@ float ones(uvec2 bits) {
 }
 #else
 #define COVER float
+#define IS_FULL(cover) (cover >= 1.0)
 #endif
 
 // How much of a lamp, or of a pixel, is on the inner side of a triangle's edge: by the determinant of the way from the
@@ -98,15 +99,17 @@ COVER inside(vec3 a, vec3 ab, SharpLamp lamp, vec3 u, vec3 v, float turn, bool e
 #endif
 }
 
-// How much of a lamp `count` triangles leave, whose words begin at `first`. dx, dy: from a pixel to the next.
+// How much of a lamp `count` > 0 triangles leave, whose words begin at `first`. dx, dy: from a pixel to the next. Loops
+// are tested at their ends: llvmpipe runs what follows a break once more with no pixel in it.
 float sharp_visible(SharpLamp lamp, uint first, uint count, vec3 p, vec3 dx, vec3 dy) {
   vec3 u = normalize(abs(lamp.to.x) < abs(lamp.to.y) ? vec3(0.0, lamp.to.z, -lamp.to.y) : vec3(-lamp.to.z, 0.0, lamp.to.x));
   vec3 v = cross(lamp.to, u);
   // Of a pixel pieces of one surface add up where they meet; what faces the lamp and what turns from it, as the two
   // sides of a body do, cover the same.
   COVER front = COVER(0), back = COVER(0);
-  for (uint k = 0u; k < count; ++k) {
-    uint word = sharp_word(first + k);
+  uint end = first + count;
+  do {
+    uint word = sharp_word(first);
     ivec2 texel = sharp_texel(4u * (word & 0x1fffffffu));
     vec3 a = texelFetch(u_sharp_triangles, texel, 0).xyz;
     vec3 b = texelFetch(u_sharp_triangles, texel + ivec2(1, 0), 0).xyz;
@@ -127,7 +130,7 @@ float sharp_visible(SharpLamp lamp, uint first, uint count, vec3 p, vec3 dx, vec
     float in_all = max(in_ab + in_bc + in_ca - 2.0, 0.0), faces = step(0.0, dot(normal, lamp.to - lamp.near * a));
     front += faces * in_all, back += (1.0 - faces) * in_all;
 #endif
-  }
+  } while (++first < end && !IS_FULL(front) && !IS_FULL(back));
 #ifdef SUNS
   return 1.0 - ones(front) / 64.0;
 #else
@@ -143,17 +146,17 @@ vec3 sharp_light(vec2 uv, vec3 p, vec3 dx, vec3 dy, vec3 normal) {
   if (place == 0u) return vec3(0.0);
   vec2 within = clamp(at - texel, 0.0, 1.0);
   uint head = sharp_word(place);
-  for (int k = 0; head == kSharpSplit; ++k) {
-    if (k == kMostSharpSplits) return vec3(0.0);
+  while (head == kSharpSplit) {  // ends, as quarters lie before it; llvmpipe would run a bounded loop to its bound
     within *= 2.0;
     vec2 quarter = step(1.0, within);
     within -= quarter;
     place = sharp_word(place + 1u + uint(quarter.x + 2.0 * quarter.y));
     head = sharp_word(place);
   }
+  if (head == 0u) return vec3(0.0);
   vec3 sum = vec3(0.0);
   uint next = place + 1u;
-  for (uint k = 0u; k < head; ++k) {
+  do {
     uint shine = sharp_word(next++);
     vec3 tint = (shine & 0x400u) != 0u ? color_of_word(sharp_word(next++)) : vec3(1.0);
     uint count = shine >> 11u;
@@ -163,6 +166,6 @@ vec3 sharp_light(vec2 uv, vec3 p, vec3 dx, vec3 dy, vec3 normal) {
       sum += lamp.light * tint * visible;
     }
     next += count;
-  }
+  } while (--head > 0u);
   return min(sum, kMostSharpLux);
 }

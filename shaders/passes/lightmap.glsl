@@ -59,10 +59,11 @@ vec3 lightmap_at(vec2 uv) {
   int around = side > kFewPlaces ? 4 : 1;
   for (int k = 0; k < 4; ++k) {
     vec2 place = row ? vec2(0.25 * float(k) - 0.375, 0.0) : vec2(0.5 * float(k & 1) - 0.25, 0.5 * float(k >> 1) - 0.25);
-    for (int j = 0; j < around; ++j) {
+    int j = 0;
+    do {
       vec2 beside = around == 1 ? vec2(0.0) : 0.25 * vec2(float(j & 1) - 0.5, float(j >> 1) - 0.5) * (row ? vec2(0.5, 2.0) : vec2(1.0));
       sum += finest_light(at + (place.x + beside.x) * longer + (place.y + beside.y) * shorter);
-    }
+    } while (++j < around);
   }
   side = min(side, kFewPlaces);
   float faded = log2(max(apart * side / kFullyFine, 1.0)) / log2(side / kFullyFine);

@@ -106,17 +106,17 @@ function visibleShare(light: SharpLight, lamp: { towards: Vec3; distance: number
   return 1 - covered.reduce((sum, c) => sum + c / ways.length, 0);
 }
 
-// Where the record of a place of a page begins; 0, of no lamps, where there are more splits than the shader follows.
+// Where the record of a place of a page begins.
 function recordAt(light: SharpLight, page: Page, s: number, t: number): number {
   const x = Math.min(Math.max(s, 0), 1) * page.width, y = Math.min(Math.max(t, 0), 1) * page.height;
   const column = Math.min(Math.floor(x), page.width - 1), row = Math.min(Math.floor(y), page.height - 1);
   let place = page.sharpAt![row * page.width + column]!, inX = x - column, inY = y - row;
-  for (let k = 0; k < mostSplits && light.words[place] === split; ++k) {
+  while (light.words[place] === split) {
     const right = Number(inX >= 0.5), below = Number(inY >= 0.5);
     inX = 2 * inX - right, inY = 2 * inY - below;
     place = light.words[place + 1 + right + 2 * below]!;
   }
-  return light.words[place] === split ? 0 : place;
+  return place;
 }
 
 // Along a unit direction that leaves the lamp.
