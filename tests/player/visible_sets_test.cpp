@@ -187,7 +187,7 @@ class HiddenTriangles : public FrameTest {
 };
 
 TEST_F(HiddenTriangles, AreNotShadedWhereADeviceWouldShadeThem) {
-  if (!device_.shades_hidden) GTEST_SKIP() << "this device does not";
+  if (!device_.shades_hidden) GTEST_SKIP() << "this device shades no hidden triangles";
   Material front;
   const Picture all = draw_with(false, behind(front), 4), seen = draw_with(true, behind(front), 4);
   EXPECT_EQ(seen.rgb, all.rgb);
