@@ -1,6 +1,7 @@
 #include "bake/cli/outcome.h"
 
 #include <unistd.h>
+#include <array>
 
 #include <ctime>
 
@@ -76,21 +77,8 @@ Json running_json() {
 }  // namespace
 
 const char* name_of(Outcome::Kind kind) {
-  switch (kind) {
-    case Outcome::Kind::kRunning:
-      return "running";
-    case Outcome::Kind::kComplete:
-      return "complete";
-    case Outcome::Kind::kPartial:
-      return "partial";
-    case Outcome::Kind::kFindings:
-      return "findings";
-    case Outcome::Kind::kFailed:
-      return "failed";
-    case Outcome::Kind::kStopped:
-      break;
-  }
-  return "stopped";
+  static const std::array names{"running", "complete", "partial", "findings", "failed", "stopped"};
+  return names.at(static_cast<std::size_t>(kind));
 }
 
 std::string outcome_json(const Outcome& o, const std::filesystem::path& scene, const std::filesystem::path& pack) {

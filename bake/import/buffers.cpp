@@ -33,19 +33,10 @@ Result<Bytes> decode_meshopt(const MeshoptDesc& desc, std::span<const std::byte>
   const std::size_t padded = (desc.count + 3) / 4 * 4;
   const std::size_t size = out.size();
   if (desc.filter != MeshoptDesc::Filter::kNone) out.resize(padded * desc.stride);
-  switch (desc.filter) {
-    case MeshoptDesc::Filter::kNone:
-      break;
-    case MeshoptDesc::Filter::kOctahedral:
-      meshopt_decodeFilterOct(out.data(), padded, desc.stride);
-      break;
-    case MeshoptDesc::Filter::kQuaternion:
-      meshopt_decodeFilterQuat(out.data(), padded, desc.stride);
-      break;
-    case MeshoptDesc::Filter::kExponential:
-      meshopt_decodeFilterExp(out.data(), padded, desc.stride);
-      break;
-  }
+  using Filter = MeshoptDesc::Filter;
+  if (desc.filter == Filter::kOctahedral) meshopt_decodeFilterOct(out.data(), padded, desc.stride);
+  if (desc.filter == Filter::kQuaternion) meshopt_decodeFilterQuat(out.data(), padded, desc.stride);
+  if (desc.filter == Filter::kExponential) meshopt_decodeFilterExp(out.data(), padded, desc.stride);
   out.resize(size);
   return out;
 }

@@ -1,6 +1,7 @@
 #include "bake/plan/census.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -221,19 +222,8 @@ StageCensus visibility_stage(const CensusInput& in) {
 }  // namespace
 
 const char* name_of(LobeKind lobe) {
-  switch (lobe) {
-    case LobeKind::kUnlit:
-      return "unlit";
-    case LobeKind::kMatte:
-      return "matte";
-    case LobeKind::kMirror:
-      return "mirror";
-    case LobeKind::kGlossy:
-      return "glossy";
-    case LobeKind::kBroad:
-      return "broad";
-  }
-  return "";
+  static const std::array names{"unlit", "matte", "mirror", "glossy", "broad"};
+  return names.at(static_cast<std::size_t>(lobe));
 }
 
 Census take_census(const CensusInput& in) {

@@ -51,29 +51,10 @@ Finding split_warning(const std::string& warning) {
 }  // namespace
 
 const char* name_of(FindingKind kind) {
-  switch (kind) {
-    case FindingKind::kOneSidedWall:
-      return "one-sided wall";
-    case FindingKind::kLightmapUv:
-      return "lightmap coordinates";
-    case FindingKind::kFlippedNormals:
-      return "flipped normals";
-    case FindingKind::kAlbedo:
-      return "albedo";
-    case FindingKind::kLightUnits:
-      return "units of light";
-    case FindingKind::kFarFromOrigin:
-      return "far from origin";
-    case FindingKind::kTexelDensity:
-      return "texel density";
-    case FindingKind::kDegenerate:
-      return "degenerate triangles";
-    case FindingKind::kNoLight:
-      return "no light";
-    case FindingKind::kImport:
-      return "import";
-  }
-  return "";
+  static const std::array names{
+      "one-sided wall",  "lightmap coordinates", "flipped normals",      "albedo",   "units of light",
+      "far from origin", "texel density",        "degenerate triangles", "no light", "import"};
+  return names.at(static_cast<std::size_t>(kind) - 1);
 }
 
 std::vector<Finding> findings_of_import(std::span<const Warning> warnings) {

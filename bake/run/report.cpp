@@ -254,15 +254,7 @@ Json visibility_json(const BakeFacts& f) {
 }
 
 const char* text_of(Start start) {
-  switch (start) {
-    case Start::kOfScene:
-      return "of the scene";
-    case Start::kInside:
-      return "chosen, inside";
-    case Start::kOutside:
-      return "chosen, outside";
-  }
-  return "";
+  return start == Start::kOfScene ? "of the scene" : start == Start::kInside ? "chosen, inside" : "chosen, outside";
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "formats/analysis/why.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -244,33 +245,10 @@ void add_darkness(const Pack& pack, Why& why) {
 }  // namespace
 
 const char* name_of(Cause cause) {
-  switch (cause) {
-    case Cause::kUnlit:
-      return "unlit";
-    case Cause::kBlack:
-      return "black";
-    case Cause::kCoincident:
-      return "coincident";
-    case Cause::kInside:
-      return "inside";
-    case Cause::kCovered:
-      return "covered";
-    case Cause::kFilled:
-      return "filled";
-    case Cause::kSeenBehind:
-      return "seen from behind";
-    case Cause::kNoLight:
-      return "no light";
-    case Cause::kFacesAway:
-      return "faces away";
-    case Cause::kShadow:
-      return "shadow";
-    case Cause::kSeesBacks:
-      return "sees backs";
-    case Cause::kIndirect:
-      return "indirect";
-  }
-  return "";
+  static const std::array names{"unlit",      "black",  "coincident",       "inside",
+                                "covered",    "filled", "seen from behind", "no light",
+                                "faces away", "shadow", "sees backs",       "indirect"};
+  return names.at(static_cast<std::size_t>(cause));
 }
 
 std::optional<Why> why_at(const Pack& pack, const MeshRays& rays, const Vec3& place, const WhyOptions& options,

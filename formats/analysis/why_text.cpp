@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <array>
 
 #include "formats/analysis/why.h"
 #include "formats/core/json.h"
@@ -9,17 +10,8 @@ namespace {
 constexpr std::size_t kShownLights = 8;
 
 const char* name_of(LightVerdict::Kind kind) {
-  switch (kind) {
-    case LightVerdict::Kind::kLights:
-      return "lights";
-    case LightVerdict::Kind::kFacesAway:
-      return "behind the surface";
-    case LightVerdict::Kind::kTurnedAway:
-      return "shines away";
-    case LightVerdict::Kind::kHidden:
-      break;
-  }
-  return "hidden";
+  static const std::array names{"lights", "behind the surface", "shines away", "hidden"};
+  return names.at(static_cast<std::size_t>(kind));
 }
 
 }  // namespace

@@ -55,14 +55,7 @@ std::map<std::string, KindSizes> kinds_of(const PackIndex& before, const PackInd
 }
 
 const char* text_of(SurfaceState state) {
-  switch (state) {
-    case SurfaceState::kOnlyInFirst:
-      return "gone";
-    case SurfaceState::kOnlyInSecond:
-      return "added";
-    default:
-      return "";
-  }
+  return state == SurfaceState::kOnlyInFirst ? "gone" : state == SurfaceState::kOnlyInSecond ? "added" : "";
 }
 
 std::string shortened(const std::string& text) {

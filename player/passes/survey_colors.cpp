@@ -6,17 +6,10 @@ namespace oriel {
 namespace {
 
 Vec3 color_of_texel(TexelState state, bool odd) {
-  switch (state) {
-    case TexelState::kValid:
-      return Vec3(odd ? 0.75f : 0.55f);
-    case TexelState::kDilated:
-      return {0.2f, 0.35f, odd ? 0.9f : 0.75f};
-    case TexelState::kBuried:
-      return {odd ? 0.9f : 0.75f, 0.2f, 0.15f};
-    case TexelState::kEmpty:
-      break;
-  }
-  return Vec3(0);
+  const float bright = odd ? 0.9f : 0.75f;
+  if (state == TexelState::kValid) return Vec3(odd ? 0.75f : 0.55f);
+  if (state == TexelState::kDilated) return {0.2f, 0.35f, bright};
+  return state == TexelState::kBuried ? Vec3(bright, 0.2f, 0.15f) : Vec3(0);
 }
 
 Vec3 color_of(const LightmapPage& page, std::size_t texel, Show show) {

@@ -12,15 +12,8 @@ std::string announce_camera(std::size_t camera, const Pack& pack) {
 
 std::string announce_beside(const ComparisonView& comparison) {
   if (!comparison.on()) return "nothing to compare: open two packs, or a pack and a picture";
-  switch (comparison.beside) {
-    case Beside::kSplit:
-      return fmt::format("{} beside {}", comparison.first, comparison.second);
-    case Beside::kFirst:
-      return comparison.first;
-    case Beside::kSecond:
-      break;
-  }
-  return comparison.second;
+  if (comparison.beside == Beside::kSplit) return fmt::format("{} beside {}", comparison.first, comparison.second);
+  return comparison.beside == Beside::kFirst ? comparison.first : comparison.second;
 }
 
 std::string announce_orbit(const Session& session) {

@@ -44,14 +44,12 @@ void draw_heat(const HeatScale& scale) {
 
 // What the colours of a survey mean.
 void draw_legend(Show show) {
-  switch (show) {
-    case Show::kTexels:
-      return ImGui::TextUnformatted("grey: baked; blue: filled from neighbours;\nred: inside other geometry");
-    case Show::kCharts:
-      return ImGui::TextUnformatted("a colour for each chart of the lightmap;\ndark grey: no lightmap");
-    default:
-      return draw_heat(heat_scale(show));
-  }
+  if (show == Show::kTexels)
+    ImGui::TextUnformatted("grey: baked; blue: filled from neighbours;\nred: inside other geometry");
+  else if (show == Show::kCharts)
+    ImGui::TextUnformatted("a colour for each chart of the lightmap;\ndark grey: no lightmap");
+  else
+    draw_heat(heat_scale(show));
 }
 
 constexpr Named<Blur> kSharpness[] = {{"as the material", Blur::kDistance}, {"like a mirror", Blur::kOff}};
