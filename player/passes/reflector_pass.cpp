@@ -112,8 +112,9 @@ void ReflectorPass::draw_light(const FrameContext& context, const ReflectedImage
   gpu::apply(where_marked(context.view, value));
   compose_.use();
   compose_.set("u_image", 0);
+  // Images in images are smoothed with what shows them.
+  compose_.set("u_smooth", value > 0 && !image.has_holes && context.options.samples > 1 ? 1 : 0);
   compose_.set("u_with_distance", value == kAddedWithDistance ? 1 : 0);
-  compose_.set("u_texture_size", Vec2(static_cast<float>(light.width()), static_cast<float>(light.height())));
   compose_.set("u_image_size", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
   compose_.set("u_origin", rect.origin);
   compose_.set("u_missing", image.reflector.mean_radiance);

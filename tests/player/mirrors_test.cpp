@@ -73,6 +73,35 @@ TEST_F(Mirrors, FacingMirrorsShowEachOtherToTheLastOrder) {
   }
 }
 
+// A lamp's slanted edge in a mirror: each pixel shows as much light as the lamp covers of it. A sample a pixel is 0.25
+// off on the mean.
+TEST_F(Mirrors, EdgesInThemAreNoStairs) {
+  constexpr float kSlope = 0.15f;
+  Pack pack = empty_pack();
+  pack.sky = Vec3(0);
+  add_bare_mirror(pack, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  const Vec3 along(10, 10 * kSlope, 0);
+  add_quad(pack, Vec3(-5, -5 * kSlope, 3), along, {0, -10, 0}, 1, -1);
+  const Camera camera = look_at({0, 0, 2}, {0, 0, 0}, 1.0f);
+  FrameOptions options;
+  options.samples = 4;
+  const Picture p = draw(pack, camera, 160, 120, options);
+  double off = 0;
+  int edge = 0;
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      const PixelRay ray = pixel_ray(camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 160, 120);
+      const Vec3 behind = ray.origin + ray.direction * (-5 / ray.direction.z);
+      const float pixel = 10 * std::tan(0.5f) / 120;  // of the lamp's mirror image
+      const float above = (behind.y - kSlope * behind.x) / pixel;
+      if (std::abs(above) > 0.5f || std::abs(behind.x) > 2) continue;
+      ++edge;
+      off += std::abs(p.at(x, y).x / 4 - (0.5f - above));
+    }
+  EXPECT_GT(edge, 60);
+  EXPECT_LT(off / edge, 0.08) << "of " << edge;
+}
+
 // Where nothing is asked for, mirrors that lose little go on past the second order, and those that lose half do not.
 TEST_F(Mirrors, GoOnWhileMostOfTheLightIsLeft) {
   Pack pack = facing_mirrors();
