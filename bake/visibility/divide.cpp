@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -43,7 +44,7 @@ class Divider {
   }
 
   bool divide(const std::function<bool(const Corners&)>& wanted) {
-    const auto is_wanted = [&](const UVec3& v) { return longest(v) > shortest_ && wanted(corners(v)); };
+    const auto is_wanted = [&](const UVec3& v) { return may_be_cut(v) && wanted(corners(v)); };
     std::vector<std::uint32_t> work;
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
       if (is_wanted(scene_.triangles[t])) work.push_back(t);
@@ -188,9 +189,15 @@ class Divider {
     return {{a[0], a[1], a[2], b[0], b[1], b[2]}};
   }
 
+  // Far from the origin the middle of a short edge is one of its ends.
+  bool may_be_cut(const UVec3& v) const {
+    const float rounding = 8 * std::numeric_limits<float>::epsilon() * max_component(glm::abs(scene_.positions[v.x]));
+    return longest(v) > std::max(shortest_, rounding);
+  }
+
   // Only of those that may be cut.
   void add_edges(std::uint32_t p) {
-    if (longest(pieces_[p].vertex) <= shortest_) return;
+    if (!may_be_cut(pieces_[p].vertex)) return;
     for (int k = 0; k < 3; ++k) {
       std::vector<std::uint32_t>& at = pieces_at_[edge_key(pieces_[p].vertex, k)];
       std::erase_if(at, [&](std::uint32_t other) { return pieces_[other].cut; });
@@ -216,7 +223,8 @@ class Divider {
   // Every piece that has the edge becomes two, at its middle or, where it is given, at a place on it.
   void cut_edge(const EdgeKey& edge, const std::optional<Vec3>& place = std::nullopt) {
     const EdgeKey key = edge;
-    const std::vector<std::uint32_t> sharing = pieces_at_[key];
+    const std::vector<std::uint32_t> sharing = std::move(pieces_at_[key]);
+    pieces_at_.erase(key);  // a half has it again where two corners of its piece are in one place
     for (const std::uint32_t p : sharing) {
       if (pieces_[p].cut) continue;
       const UVec3 v = pieces_[p].vertex;
@@ -231,7 +239,6 @@ class Divider {
         break;
       }
     }
-    pieces_at_.erase(key);
   }
 
   std::uint32_t vertex_on(std::uint32_t a, std::uint32_t b, const std::optional<Vec3>& place) {

@@ -98,5 +98,15 @@ TEST(Divide, NothingIsCutWhereNothingIsWanted) {
   EXPECT_EQ(scene.triangles.size(), before);
 }
 
+// Where float has a metre, the middle of a short edge is one of its ends.
+TEST(Divide, EndsFarFromTheOrigin) {
+  Scene scene = ground();
+  for (Vec3& p : scene.positions) p.x += 1e7f;
+  const UVec3 first = scene.triangles[0];
+  scene.positions[first.z] = scene.positions[first.x];  // two corners in one place
+  EXPECT_TRUE(divide_triangles(scene, 0, [](const auto&) { return true; }));
+  EXPECT_LT(scene.triangles.size(), 100000u);
+}
+
 }  // namespace
 }  // namespace oriel
