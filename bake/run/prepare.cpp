@@ -23,9 +23,10 @@ constexpr double kTriangles_per_s = 1e5;     // of --time: reading, tracing, lay
 constexpr double kMostForWalls = 0.1;        // of --time: 400 thousand facets of a terrain take 5 s of a thread
 constexpr double kMostForSides = 0.15;       // of --time
 constexpr double kMostForFirstLight = 0.18;  // of what of it is left when the lightmap is laid out
-constexpr double kFirstRays = 800;    // of a texel, for a first estimate of its light: points, direct light, gather
-constexpr double kViewRays = 6e5;     // that tell what people see, by which a ray's time is told;
-constexpr double kLeastRay_s = 1e-7;  // which says nothing where they were known already
+constexpr double kFirstRays = 800;      // of a texel, for a first estimate of its light: points, direct light, gather
+constexpr double kViewRays = 6e5;       // that tell what people see, by which a ray's time is told;
+constexpr double kLeastRay_s = 1e-7;    // which says nothing where they were known already
+constexpr double kBouncesASecond = 32;  // of --time
 
 Status build_accel(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
   ORIEL_TRY(prepared.accel, timed("accelerator", [&](auto&) {
@@ -160,6 +161,9 @@ Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatc
 
 PathOptions path_options(const BakeOptions& options) {
   PathOptions paths;
+  // Between mirrors that reflect all, each path is as long as it may be, and no task may take most of the time.
+  const double most = kBouncesASecond * std::max(options.time_s, 1.0);
+  if (options.time_s > 0 && most < paths.max_bounces) paths.max_bounces = static_cast<int>(most);
   if (options.radiosity.bounces > 0) paths.max_bounces = options.radiosity.bounces;
   return paths;
 }

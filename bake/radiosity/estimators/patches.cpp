@@ -256,7 +256,7 @@ void Solver::warn_of_no_end(Context& context, const Sweeps& result) const {
 }
 
 Solver::End Solver::run(Context& context, bool detects_growth, Sweeps& result) {
-  const int most = options_.most.value_or(query_.transport().options.max_bounces);
+  const int most = options_.most.value_or(PathOptions().max_bounces);
   std::vector<Vec3> next(patches_.size());
   solution_.resize(patches_.size());
   std::ranges::transform(patches_, solution_.begin(), &LightPatch::unreflected);
@@ -315,8 +315,7 @@ Status Solver::solve(Context& context, Sweeps& result) {
     end = run(context, bounded > 0, result);
   }
   if (end == End::kStopped) return fail(ErrorCode::kStopped, "radiosity", "stopped");
-  const int most = query_.transport().options.max_bounces;
-  if (!options_.most && result.count >= most && (result.growth >= 1 || result.tail > kEndless))
+  if (!options_.most && result.count >= PathOptions().max_bounces && (result.growth >= 1 || result.tail > kEndless))
     warn_of_no_end(context, result);
   fill_untraced(patches_, solution_);
   return {};

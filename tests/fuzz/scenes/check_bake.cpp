@@ -116,8 +116,10 @@ std::vector<std::string> check_pack_numbers(const Pack& pack, double irradiance_
   // A map's pixel is a mean of few samples too, of what reflects at most all of it.
   for (const RadianceMap& map : pack.radiance_maps)
     check_light("radiance of pixel", map.radiance, irradiance_bound, wrong);
+  // A point, spot or sun is all in one pixel of an octahedron's map, 4/n sr of it at least (sky beside it too).
   for (const SurroundMap& map : pack.surround_maps)
-    check_light("radiance of pixel", map.radiance, irradiance_bound, wrong);
+    check_light("radiance of a surround map's pixel", map.radiance,
+                irradiance_bound * static_cast<double>(map.radiance.size()) / 4, wrong);
   return wrong;
 }
 

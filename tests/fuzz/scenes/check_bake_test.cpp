@@ -47,6 +47,13 @@ TEST(FuzzScenes, ThePackCheckerFindsAPlantedFault) {
     EXPECT_THAT(check_pack_numbers(pack, 1e6), Contains(HasSubstr("irradiance of texel 1"))) << bad;
     texel = good;
   }
+  std::vector<Vec3>& pixels = pack.surround_maps.emplace_back().radiance;
+  pixels.resize(64 * 64);
+  const float sun = 1e6f * 64 * 64 / 4;
+  pixels[3] = Vec3(0.99f * sun);
+  EXPECT_THAT(check_pack_numbers(pack, 1e6), IsEmpty());
+  pixels[3] = Vec3(1.01f * sun);
+  EXPECT_THAT(check_pack_numbers(pack, 1e6), Contains(HasSubstr("surround map's pixel 3")));
 }
 
 TEST(FuzzScenes, TheRunCheckerFindsAPlantedFault) {
