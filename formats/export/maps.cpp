@@ -63,53 +63,44 @@ Raster error_raster(const LightmapPage& page, std::uint32_t longest) {
       [&](std::size_t i) { return page.state[i] == TexelState::kValid; });
 }
 
-// RadianceMap or SurroundMap.
-template <class Map>
-Raster radiance_raster(const Map& map, std::uint32_t width, std::uint32_t height, std::uint32_t longest) {
-  return reduced(
-      width, height, longest, [&](std::size_t i) { return map.radiance[i]; },
-      [&](std::size_t i) { return map.valid[i] != 0; });
+// Of RadianceMaps or SurroundMaps. named: what they are called; shown_as: of a map, its name and picture.
+template <class Map, class ShownAs>
+std::string maps_html(const std::vector<Map>& maps, const Limits& limits, const std::array<std::string_view, 3>& named,
+                      const ShownAs& shown_as) {
+  const std::size_t shown = std::min(limits.maps, maps.size());
+  if (shown == 0) return {};
+  const auto& [heading, kind, explained] = named;
+  std::vector<std::string> names;
+  std::vector<Raster> rasters;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto& [name, width, height] = shown_as(maps[i]);
+    names.push_back(fmt::format("{}: {}{} × {}", i, name, width, height));
+    rasters.push_back(reduced(
+        width, height, limits.map_side, [&](std::size_t k) { return maps[i].radiance[k]; },
+        [&](std::size_t k) { return maps[i].valid[k] != 0; }));
+    if constexpr (std::is_same_v<Map, RadianceMap>) rasters.back() = flipped(rasters.back());
+  }
+  const float white = white_of(rasters);
+  std::string html = fmt::format(
+      "<h3>{}</h3>\n<p class=\"quiet\">{} {:.4g} cd/m² is white, grey is not usable.</p>\n"
+      "<div class=\"figures\">\n",
+      heading, explained, white);
+  for (std::size_t i = 0; i < shown; ++i)
+    html += figure(toned_img(rasters[i], white, fmt::format("{} {}", kind, shown_text(names[i]))), names[i]);
+  return html + "</div>\n" + left_out(maps.size(), shown, fmt::format("{}s", kind));
 }
 
 std::string radiance_maps_html(const Pack& pack, const Limits& limits) {
-  const std::size_t shown = std::min(limits.maps, pack.radiance_maps.size());
-  if (shown == 0) return {};
-  std::vector<Raster> rasters;
-  for (std::size_t i = 0; i < shown; ++i) {
-    const RadianceMap& m = pack.radiance_maps[i];
-    rasters.push_back(flipped(radiance_raster(m, m.width, m.height, limits.map_side)));
-  }
-  const float white = white_of(rasters);
-  std::string html = fmt::format(
-      "<h3>Radiance maps</h3>\n<p class=\"quiet\">As the viewpoint behind the reflector sees them, up as on the plane; "
-      "{:.4g} cd/m² is white, grey is not usable.</p>\n<div class=\"figures\">\n",
-      white);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const RadianceMap& m = pack.radiance_maps[i];
-    const std::string name = fmt::format("{}: {}, {} × {}", i, pack.reflectors[m.reflector].name, m.width, m.height);
-    html += figure(toned_img(rasters[i], white, "radiance map " + shown_text(name)), name);
-  }
-  return html + "</div>\n" + left_out(pack.radiance_maps.size(), shown, "radiance maps");
+  return maps_html(
+      pack.radiance_maps, limits,
+      {"Radiance maps", "radiance map", "As the viewpoint behind the reflector sees them, up as on the plane;"},
+      [&](const RadianceMap& m) { return std::tuple(pack.reflectors[m.reflector].name + ", ", m.width, m.height); });
 }
 
 std::string surround_maps_html(const Pack& pack, const Limits& limits) {
-  const std::size_t shown = std::min(limits.maps, pack.surround_maps.size());
-  if (shown == 0) return {};
-  std::vector<Raster> rasters;
-  for (std::size_t i = 0; i < shown; ++i) {
-    const SurroundMap& m = pack.surround_maps[i];
-    rasters.push_back(radiance_raster(m, m.size, m.size, limits.map_side));
-  }
-  const float white = white_of(rasters);
-  std::string html = fmt::format(
-      "<h3>Surround maps</h3>\n<p class=\"quiet\">All directions around a point, octahedral; {:.4g} cd/m² is "
-      "white.</p>\n<div class=\"figures\">\n",
-      white);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const std::string name = fmt::format("{}: {} × {}", i, pack.surround_maps[i].size, pack.surround_maps[i].size);
-    html += figure(toned_img(rasters[i], white, "surround map " + name), name);
-  }
-  return html + "</div>\n" + left_out(pack.surround_maps.size(), shown, "surround maps");
+  return maps_html(pack.surround_maps, limits,
+                   {"Surround maps", "surround map", "All directions around a point, octahedral;"},
+                   [](const SurroundMap& m) { return std::tuple("", m.size, m.size); });
 }
 
 }  // namespace
