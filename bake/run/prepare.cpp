@@ -1,6 +1,7 @@
 #include "bake/run/prepare.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -162,8 +163,8 @@ Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatc
 PathOptions path_options(const BakeOptions& options) {
   PathOptions paths;
   // Between mirrors that reflect all, each path is as long as it may be, and no task may take most of the time.
-  const double most = kBouncesASecond * std::max(options.time_s, 1.0);
-  if (options.time_s > 0 && most < paths.max_bounces) paths.max_bounces = static_cast<int>(most);
+  if (const double most = kBouncesASecond * options.time_s; options.time_s > 0 && most < paths.max_bounces)
+    paths.max_bounces = std::bit_ceil(static_cast<unsigned>(std::max(most, kBouncesASecond)));
   if (options.radiosity.bounces > 0) paths.max_bounces = options.radiosity.bounces;
   return paths;
 }

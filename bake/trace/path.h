@@ -14,7 +14,7 @@
 namespace oriel {
 
 struct PathOptions {
-  int max_bounces = 4096;  // only a guard: Russian roulette ends paths long before
+  int max_bounces = 4096;  // a guard: Russian roulette ends paths long before; fewer where time is short
   int roulette_from = 3;   // bounces that are never ended by chance
   // cd/m² that eyes see of white unlit surfaces, straight or by specular lobes; 0: none, they are seen through.
   float unlit_white = 0;

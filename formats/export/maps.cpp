@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 
 #include "formats/analysis/part_light.h"
 #include "formats/core/color.h"
@@ -90,19 +92,6 @@ std::string maps_html(const std::vector<Map>& maps, const Limits& limits, const 
   return html + "</div>\n" + left_out(maps.size(), shown, fmt::format("{}s", kind));
 }
 
-std::string radiance_maps_html(const Pack& pack, const Limits& limits) {
-  return maps_html(
-      pack.radiance_maps, limits,
-      {"Radiance maps", "radiance map", "As the viewpoint behind the reflector sees them, up as on the plane;"},
-      [&](const RadianceMap& m) { return std::tuple(pack.reflectors[m.reflector].name + ", ", m.width, m.height); });
-}
-
-std::string surround_maps_html(const Pack& pack, const Limits& limits) {
-  return maps_html(pack.surround_maps, limits,
-                   {"Surround maps", "surround map", "All directions around a point, octahedral;"},
-                   [](const SurroundMap& m) { return std::tuple("", m.size, m.size); });
-}
-
 }  // namespace
 
 std::string lightmaps_html(const Pack& pack, const Limits& limits) {
@@ -181,7 +170,13 @@ std::string reflections_html(const Pack& pack, const Limits& limits) {
                fmt::format("{}", r.emitters.size())});
   }
   if (!table.empty()) html += table.html() + left_out(pack.reflectors.size(), shown, "reflectors");
-  html += radiance_maps_html(pack, limits) + surround_maps_html(pack, limits);
+  html += maps_html(
+      pack.radiance_maps, limits,
+      {"Radiance maps", "radiance map", "As the viewpoint behind the reflector sees them, up as on the plane;"},
+      [&](const RadianceMap& m) { return std::tuple(pack.reflectors[m.reflector].name + ", ", m.width, m.height); });
+  html += maps_html(pack.surround_maps, limits,
+                    {"Surround maps", "surround map", "All directions around a point, octahedral;"},
+                    [](const SurroundMap& m) { return std::tuple("", m.size, m.size); });
   return html.empty() ? "" : "<h2>Reflections</h2>\n" + html;
 }
 
