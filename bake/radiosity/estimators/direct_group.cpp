@@ -26,25 +26,28 @@ DirectGroup::DirectGroup(const DirectLight& direct, std::span<const std::uint32_
 }
 
 void DirectGroup::run(DirectSums& sums) {
-  sample_polygon_lights();
-  for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
-    sample_as_needed([&](auto... samples) { sample_punctual_light(l, samples...); });
-    if (d_.sharp_.charts) finish_sharp(l);
-    finish_light(Vec3(1), scene().lights[l].light_group, hours_of(scene().lights[l]), per_half_);
+  for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
+    const PolygonLight& polygon = d_.polygons_[l];
+    add_lamp({polygon.radiance, scene().light_group(polygon.triangles.front()), 1, kFewSamples},
+             [&](auto... range) { sample_polygon(l, range...); });
   }
+  const std::vector<Light>& punctual = scene().lights;
+  for (std::uint32_t l = 0; !d_.many_punctual_ && l < punctual.size(); ++l)
+    add_lamp({Vec3(1), punctual[l].light_group, hours_of(punctual[l]), per_half_ / 4, l},
+             [&](auto... range) { sample_punctual_light(l, range...); });
   const VirtualLights& mirrored = d_.t_.lights.mirrored();
   const auto [centre, radius] = sphere_about_points();
   for (std::uint32_t i = 0; i < mirrored.size(); ++i) {
     if (mirrored[i].order > d_.t_.options.max_bounces || !mirrored[i].may_reach(centre, radius)) continue;
-    sample_as_needed([&](auto... samples) { sample_mirrored_light(i, samples...); });
-    const Light& light = scene().lights[mirrored[i].light];
-    finish_light(Vec3(1), light.light_group, hours_of(light), per_half_);
+    const Light& light = punctual[mirrored[i].light];
+    add_lamp({Vec3(1), light.light_group, hours_of(light), per_half_ / 4},
+             [&](auto... range) { sample_mirrored_light(i, range...); });
   }
   const auto any = [&](const Point& p, Sampler& sampler) {
     const float u = sampler.next1();
     return d_.t_.lights.sample(p.sample_point.origin, u, sampler.next2());
   };
-  if (d_.many_punctual_) sample_many_punctual(any);
+  if (d_.many_punctual_) sample_lights(any, kPicks);
   if (!d_.t_.lights.frosted().empty()) sample_frosted();
   if (!d_.closed_form_) sample_lights(any);
   if (d_.closed_form_ && d_.t_.lights.samples_sky())
@@ -88,51 +91,16 @@ bool DirectGroup::is_usable(const Point& point, const Vec3& light) const {
   return false;
 }
 
-void DirectGroup::sample_polygon_lights() {
-  const std::uint32_t first = std::min(per_half_, LightCalibration::kSamples);
-  std::vector<LightCalibration> calibrations;
-  float most = 0;
-  for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
-    sample_polygon(l, 0, first, true);
-    calibrations.push_back(finish_calibration(l));
-    most = std::max(most, calibrations.back().noise);
-  }
-  for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
-    const LightCalibration& calibration = calibrations[l];
-    for (std::size_t i = 0; i < tallies_.size(); ++i) static_cast<LightTally&>(tallies_[i]) = calibration.tallies[i];
-    const std::uint32_t samples = per_half_ > first ? sample_count(calibration, most, per_half_) : first;
-    if (samples > first) sample_polygon(l, first, samples, !calibration.all_visible);
-    finish_light(d_.polygons_[l].radiance, scene().light_group(d_.polygons_[l].triangles.front()), 1, samples);
-  }
+float DirectGroup::noise_of(const LightTally& t, const Lamp& lamp, std::uint32_t per_half) {
+  // With so few samples the visibility is uncertain: one sample is added, half of it visible.
+  const float n = 1.0f * kHalves * per_half, weight = luminance(t.proposal_weight[0] + t.proposal_weight[1]),
+              sample = weight / n, unoccluded = luminance(lamp.radiance * (t.unoccluded[0] + t.unoccluded[1])) / n;
+  if (!(weight > 0)) return 0;
+  const float share = (luminance(t.transmitted[0] + t.transmitted[1]) + 0.5f * sample) / (weight + sample);
+  return lamp.hours * unoccluded * unoccluded * share * (1 - share);
 }
 
-LightCalibration DirectGroup::finish_calibration(std::uint32_t l) {
-  trace();
-  LightCalibration calibration;
-  bool any = false;
-  for (Tally& t : tallies_) {
-    for (int half = 0; half < kHalves; ++half) {
-      calibration.all_visible = calibration.all_visible && t.transmitted[half] == t.proposal_weight[half];
-      calibration.all_occluded = calibration.all_occluded && t.transmitted[half] == Vec3(0);
-      any = any || t.proposal_weight[half] != Vec3(0);
-    }
-    // With so few samples the visibility is uncertain: one sample is added, half of it visible.
-    const float unoccluded = luminance(d_.polygons_[l].radiance) * (t.unoccluded[0].x + t.unoccluded[1].x) /
-                             (kHalves * LightCalibration::kSamples);
-    const float weight = luminance(t.proposal_weight[0] + t.proposal_weight[1]),
-                sample = weight / (kHalves * LightCalibration::kSamples);
-    const float share =
-        weight > 0 ? (luminance(t.transmitted[0] + t.transmitted[1]) + 0.5f * sample) / (weight + sample) : 0;
-    calibration.noise += unoccluded * unoccluded * share * (1 - share);
-    calibration.tallies.push_back(t);
-    clear_light(t);
-  }
-  calibration.all_occluded = calibration.all_occluded && any;
-  if (calibration.all_visible || calibration.all_occluded) calibration.noise = 0;
-  return calibration;
-}
-
-void DirectGroup::sample_polygon(std::uint32_t l, std::uint32_t first, std::uint32_t end, bool trace_rays) {
+void DirectGroup::sample_polygon(std::uint32_t l, std::uint32_t first, std::uint32_t end) {
   const PolygonLight& light = d_.polygons_[l];
   Receiver receiver;
   std::optional<PolygonView> view;
@@ -150,8 +118,7 @@ void DirectGroup::sample_polygon(std::uint32_t l, std::uint32_t first, std::uint
     if (!(unoccluded > 0) || !is_usable(point, Vec3(unoccluded))) continue;
     Tally& tally = tallies_[point.texel];
     tally.unoccluded[point.half] += Vec3(unoccluded);
-    const bool unseen = tally.proposal_weight[0] + tally.proposal_weight[1] == Vec3(0);
-    if (!trace_rays && !unseen) continue;
+    if (!traces_[point.texel]) continue;
     if (!view) view.emplace(light, receiver);
     Sampler sampler(d_.seed_ + seeds::kPolygonLight + l, stream_of(list_[point.texel], point.half), point.k);
     add_polygon_sample(*view, receiver, p, sampler);
@@ -170,18 +137,26 @@ void DirectGroup::add_polygon_sample(const PolygonView& view, const Receiver& re
 }
 
 template <class Sample>
-void DirectGroup::sample_as_needed(const Sample& sample) {
-  const std::uint32_t first = std::max(LightCalibration::kSamples, per_half_ / 4);
+void DirectGroup::add_lamp(const Lamp& lamp, const Sample& sample) {
+  const std::uint32_t first = std::min(std::max(lamp.first, kFewSamples), per_half_);
+  std::uint32_t samples = first;
   traces_.assign(tallies_.size(), true);
-  sample(0u, std::min(first, per_half_));
+  sample(0u, first);
   const bool told = shadow_rays_.size() >= kTelling;
-  if (first >= per_half_) return;
   trace();
   const auto is_dark = [](const Tally& t) { return t.transmitted[0] + t.transmitted[1] == Vec3(0); };
-  if (told && std::ranges::all_of(tallies_, is_dark)) return;
-  if (told && std::ranges::all_of(tallies_, [](const Tally& t) { return t.transmitted == t.proposal_weight; }))
-    std::ranges::transform(tallies_, traces_.begin(), is_dark);  // none was asked for
-  sample(first, per_half_);
+  if (first < per_half_ && !(told && std::ranges::all_of(tallies_, is_dark))) {
+    const bool lit = told && std::ranges::all_of(tallies_, [](auto& t) { return t.transmitted == t.proposal_weight; });
+    if (lit) std::ranges::transform(tallies_, traces_.begin(), is_dark);  // none was asked for
+    float noise = 0;
+    for (std::uint32_t i = 0; i < tallies_.size() && !lit; ++i)
+      if (!is_sharp(lamp.punctual, i)) noise += noise_of(tallies_[i], lamp, first);
+    noisiest_ = std::max(noisiest_, noise);
+    samples = lit ? per_half_ : std::max(first, sample_count(noise, noisiest_, per_half_));
+    sample(first, samples);
+    trace();
+  }
+  finish_lamp(lamp, samples);
 }
 
 void DirectGroup::sample_punctual_light(std::uint32_t l, std::uint32_t first, std::uint32_t end) {
@@ -224,7 +199,7 @@ void DirectGroup::sample_mirrored_light(std::uint32_t i, std::uint32_t first, st
 }
 
 void DirectGroup::sample_frosted() {
-  const std::uint32_t first = std::min(per_half_, LightCalibration::kSamples);
+  const std::uint32_t first = std::min(per_half_, kFewSamples);
   sample_frosted(0, first, 1);
   // Where no point of the group sees a lit pane, as in other rooms, few groups go on, which stand for all.
   const auto is_lit = [](const Tally& t) { return t.transmitted[0] + t.transmitted[1] != Vec3(0); };
@@ -290,25 +265,18 @@ void DirectGroup::trace() {
   rays_to_trace_.clear();
 }
 
-// Shadows' edges are drawn by pixel: their noise here is nobody's.
-void DirectGroup::finish_sharp(std::uint32_t l) {
-  trace();
-  for (std::uint32_t i = 0; i < tallies_.size(); ++i) {
-    if (!is_sharp(l, i)) continue;
-    Tally& t = tallies_[i];
-    const Vec3 value = (t.transmitted[0] + t.transmitted[1]) / static_cast<float>(kHalves * per_half_);
-    t.total += value, t.sharp += value;
-    const std::uint32_t group = scene().lights[l].light_group;
-    if (!grouped_.empty()) grouped_.of(i)[group] += value, grouped_sharp_.of(i)[group] += value;
-    clear_light(t);
-  }
-}
-
-void DirectGroup::finish_light(const Vec3& radiance, std::uint32_t group, float hours, std::uint32_t per_half) {
-  trace();
+void DirectGroup::finish_lamp(const Lamp& lamp, std::uint32_t per_half) {
+  const auto& [radiance, group, hours, first, punctual] = lamp;
   const auto n = static_cast<float>(kHalves * per_half);
-  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+  for (std::uint32_t i = 0; i < tallies_.size(); ++i) {
     Tally& t = tallies_[i];
+    if (is_sharp(punctual, i)) {  // shadows' edges are drawn by pixel: their noise here is nobody's
+      const Vec3 mean = (t.transmitted[0] + t.transmitted[1]) / n;
+      t.total += mean, t.sharp += mean;
+      if (!grouped_.empty()) grouped_.of(i)[group] += mean, grouped_sharp_.of(i)[group] += mean;
+      static_cast<LightTally&>(t) = {};
+      continue;
+    }
     const Vec3 share = ratio(t.transmitted[0] + t.transmitted[1], t.proposal_weight[0] + t.proposal_weight[1]);
     const auto own = [&](int half) {
       return max_component(t.proposal_weight[half]) > 0 ? ratio(t.transmitted[half], t.proposal_weight[half]) : share;
@@ -328,7 +296,7 @@ void DirectGroup::finish_light(const Vec3& radiance, std::uint32_t group, float 
         radiance * (t.unoccluded[0] * of_half[0] - t.unoccluded[1] * of_half[1]) / static_cast<float>(per_half);
     t.difference += difference;
     if (!grouped_.empty()) grouped_.of(i)[group] += value, grouped_difference_.of(i)[group] += difference;
-    clear_light(t);
+    static_cast<LightTally&>(t) = {};
   }
 }
 
@@ -338,17 +306,21 @@ void DirectGroup::add_moments(Tally& t, const Vec3& value) {
 }
 
 template <class Sample>
-void DirectGroup::sample_lights(const Sample& sample) {
-  for (std::uint32_t p = 0; p < points_.size(); ++p) {
-    const Point& point = points_[p];
-    Sampler sampler(d_.seed_ + seeds::kSky, stream_of(list_[point.texel], point.half), point.k);
-    const LightSample s = sample(point, sampler);
-    if (s.pdf == 0) continue;  // no light, or a punctual one, which is sampled elsewhere
-    const float cosine = incidence(point.sample_point.receiver(), s.direction);
-    const Vec3 value = s.estimate * (cosine * s.pdf / (s.pdf + cosine / kPi));
-    if (max_component(value) > 0 && is_usable(point, value))
-      add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, false}, value, s.group);
-  }
+void DirectGroup::sample_lights(const Sample& sample, std::uint64_t punctual_picks) {
+  const bool punctual = punctual_picks > 0;
+  for (std::uint64_t pick = 0; pick < std::max<std::uint64_t>(punctual_picks, 1); ++pick)
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      Sampler sampler(d_.seed_ + (punctual ? seeds::kManyLights + pick : seeds::kSky),
+                      stream_of(list_[point.texel], point.half), point.k);
+      const LightSample s = sample(point, sampler);
+      if ((s.pdf > 0) == punctual) continue;  // no light, or one that is sampled elsewhere
+      const float cosine = incidence(point.sample_point.receiver(), s.direction, punctual),
+                  share = punctual ? 1 / static_cast<float>(punctual_picks) : s.pdf / (s.pdf + cosine / kPi);
+      const Vec3 value = s.estimate * (cosine * share);
+      if (max_component(value) > 0 && is_usable(point, value))
+        add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, punctual, !punctual}, value, s.group);
+    }
   finish_sampled();
 }
 
@@ -362,29 +334,13 @@ void DirectGroup::finish_sampled(float hours) {
     const Vec3 difference = (t.transmitted[0] - t.transmitted[1]) / n;
     t.variance += 0.25f * hours * difference * difference;
     t.difference += difference;
-    clear_light(t);
+    static_cast<LightTally&>(t) = {};
   }
   for (int h = 0; h < kHalves; ++h) {
     grouped_.add(grouped_transmitted_[h], 1 / (kHalves * n));
     grouped_difference_.add(grouped_transmitted_[h], (h == 0 ? 1 : -1) / n);
     std::ranges::fill(grouped_transmitted_[h].light, Vec3(0));
   }
-}
-
-template <class Sample>
-void DirectGroup::sample_many_punctual(const Sample& sample) {
-  for (std::uint64_t pick = 0; pick < kPicks; ++pick)
-    for (std::uint32_t p = 0; p < points_.size(); ++p) {
-      const Point& point = points_[p];
-      Sampler sampler(d_.seed_ + seeds::kManyLights + pick, stream_of(list_[point.texel], point.half), point.k);
-      const LightSample s = sample(point, sampler);
-      if (s.pdf > 0) continue;  // an emissive surface, or the sky
-      const Vec3 value =
-          s.estimate * (incidence(point.sample_point.receiver(), s.direction, true) / static_cast<float>(kPicks));
-      if (max_component(value) > 0 && is_usable(point, value))
-        add_shadow_ray(p, {point.sample_point.origin, s.direction, s.distance, true, false}, value, s.group);
-    }
-  finish_sampled();
 }
 
 }  // namespace oriel

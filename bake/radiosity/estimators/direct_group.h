@@ -2,11 +2,31 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "bake/radiosity/estimators/direct_light.h"
-#include "bake/radiosity/estimators/light_calibration.h"
 
 namespace oriel {
+
+// Sums of a ratio estimator for one light and texel, by half.
+struct LightTally {
+  std::array<Vec3, kHalves> unoccluded{}, proposal_weight{}, transmitted{};
+  Vec4 transmitted_moments{0};  // Σ moments of `transmitted`, by luminance
+};
+
+inline constexpr std::uint32_t kFewSamples = 2;  // a half, that are taken of any light
+
+// The number of samples a half for a light, at most per_half: faint ones get fewer. The variance of n samples falls as
+// n^-1.5 (stratified points, a visibility edge), so one more sample reduces it by n^-2.5. That reduction is made equal
+// for all lights (Neyman allocation, 1934). noise: variance by one sample; most: of the noisiest light.
+inline std::uint32_t sample_count(float noise, float most, std::uint32_t per_half) {
+  std::uint32_t samples = per_half;
+  const auto has_enough = [&](std::uint32_t n) {
+    return noise * std::pow(static_cast<float>(per_half) / static_cast<float>(n), 2.5f) <= most;
+  };
+  while (samples > 2 * kFewSamples && has_enough(samples / 2)) samples /= 2;
+  return samples;
+}
 
 // Direct light of a group of texels.
 class DirectGroup {
@@ -38,10 +58,17 @@ class DirectGroup {
     std::uint32_t point = 0;
     Vec3 weight{0};
     Vec3 direction{0};
-    std::uint32_t group = kNoGroup;  // light group of a randomly chosen light; others are added by finish_light()
+    std::uint32_t group = kNoGroup;  // light group of a randomly chosen light; others are added by finish_lamp()
     int segments = 1;                // rays along the path
     bool punctual = false;           // of a point, a spot or a sun
     Vec3 share{1};                   // throughput apart from transmittance
+  };
+  struct Lamp {
+    Vec3 radiance{1};
+    std::uint32_t group = 0;
+    float hours = 1;               // hours_of()
+    std::uint32_t first = 0;       // samples a half, at least kFewSamples
+    std::uint32_t punctual = ~0u;  // into Scene::lights; ~0u: a polygon, or by way of mirrors
   };
   // Sums of a texel: those of the current light, and those of all lights so far.
   struct Tally : LightTally {
@@ -56,17 +83,19 @@ class DirectGroup {
   void add_points(std::uint32_t i);
   // True for a finite estimate. Others are counted as dropped.
   bool is_usable(const Point& point, const Vec3& light) const;
-  void sample_polygon_lights();
-  LightCalibration finish_calibration(std::uint32_t l);
-  // Adds samples first <= k < end of each half: unoccluded irradiance, and with `trace_rays` shadow rays.
-  void sample_polygon(std::uint32_t l, std::uint32_t first, std::uint32_t end, bool trace_rays);
+  // Adds samples first <= k < end of each half: unoccluded irradiance, and shadow rays where the texel takes them.
+  void sample_polygon(std::uint32_t l, std::uint32_t first, std::uint32_t end);
   // Adds a shadow ray to a random point of the light above the horizon. Points below it have no weight and are redrawn,
   // so that a light barely above the horizon gets samples, too.
   void add_polygon_sample(const PolygonView& view, const Receiver& receiver, std::uint32_t p, Sampler& sampler);
-  // Calls sample(first, end) for samples first <= k < end of each half, at first a quarter. Where kTelling of them or
-  // more see the light, and none does not, further ones of those texels take no rays; where none does, there are none.
+  // The variance of a lamp at a texel by one sample, lux², estimated from so many.
+  static float noise_of(const LightTally& t, const Lamp& lamp, std::uint32_t per_half);
+  // Calls sample(begin, end) for samples begin <= k < end of each half, at first a few of them. Where kTelling of them
+  // or more see the lamp, and none does not, further ones of those texels take no rays (of a mirror's image they do);
+  // where none does, there are none. Else as many as sample_count() says. Noise of what is computed by pixel is
+  // nobody's.
   template <class Sample>
-  void sample_as_needed(const Sample& sample);
+  void add_lamp(const Lamp& lamp, const Sample& sample);
   void sample_punctual_light(std::uint32_t l, std::uint32_t first, std::uint32_t end);
   std::pair<DVec3, double> sphere_about_points() const;
   // Samples the virtual image of a light. The unoccluded irradiance is that of an endless mirror: the mirror's edge
@@ -81,11 +110,9 @@ class DirectGroup {
   // (Heitz et al. 2018). It is exact where all is lit or all is dark, so noise is in penumbrae only. The ratio is taken
   // over all samples, since its bias falls with their number. A half without any weight, the light being mostly below
   // its points' horizon, takes the ratio of both.
-  void finish_light(const Vec3& radiance, std::uint32_t group, float hours, std::uint32_t per_half);
-  // The same of a light that is computed by pixel at some texels.
-  void finish_sharp(std::uint32_t l);
+  void finish_lamp(const Lamp& lamp, std::uint32_t per_half);
   bool is_sharp(std::uint32_t l, std::uint32_t texel_of_list) const {
-    return d_.sharp_.has(l, d_.texels_.chart[list_[texel_of_list]]);
+    return l != ~0u && d_.sharp_.charts && d_.sharp_.has(l, d_.texels_.chart[list_[texel_of_list]]);
   }
   // The factor on noise variance of a sun of a day. Each hour is shown without the others, so its noise is relative to
   // its own light: the number of hours, if all were alike.
@@ -93,15 +120,12 @@ class DirectGroup {
   // Adds the moments of `value`, distributed over directions as the transmitted samples are.
   static void add_moments(Tally& t, const Vec3& value);
   static Vec3 ratio(const Vec3& a, const Vec3& b) { return a / glm::max(b, Vec3(1e-30f)); }
-  static void clear_light(LightTally& t) { t = {}; }
-  // Samples lights without a closed form, one a point, by multiple importance sampling with gather rays that hit them.
+  // Samples lights without a closed form, one a point, by multiple importance sampling with gather rays that hit them;
+  // or many punctual ones, which no ray hits.
   template <class Sample>
-  void sample_lights(const Sample& sample);
+  void sample_lights(const Sample& sample, std::uint64_t punctual_picks = 0);
   // Adds the samples of the current lights to all. hours: as in hours_of().
   void finish_sampled(float hours = 1);
-  // Samples many punctual lights, which no ray hits.
-  template <class Sample>
-  void sample_many_punctual(const Sample& sample);
   const Scene& scene() const { return d_.t_.accel.scene(); }
 
   const DirectLight& d_;
@@ -110,7 +134,8 @@ class DirectGroup {
   bool directional_;
   std::vector<Point> points_;
   std::vector<Tally> tallies_;
-  std::vector<char> traces_;  // by texel: samples of the current punctual light take shadow rays
+  float noisiest_ = 0;        // noise_of(), sum over texels, of the noisiest light so far
+  std::vector<char> traces_;  // by texel: samples of the current light take shadow rays
   GroupedLight grouped_, grouped_difference_, grouped_sharp_;  // by texel of the list, of all lights so far
   std::array<GroupedLight, kHalves> grouped_transmitted_;      // by half, of the randomly chosen lights now
   std::vector<Ray> rays_to_trace_;
