@@ -90,26 +90,23 @@ bool ShadowBeam::may_meet(const DVec3& a, const DVec3& b) const {
   return !is_beyond_edge(side, most) && !is_beyond_edge({side.from, -side.outwards}, most);
 }
 
-bool ShadowBeam::is_blocked_by(const BeamTriangle& t) const {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Side side = side_through(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
-    const double margin = level_ + std::max(spread(t[k]), spread(t[(k + 1) % 3]));
-    if (side.outwards == DVec3(0)) return false;
-    for (const DVec3& corner : corners_)
-      if (side.beyond(corner) > -margin) return false;
-  }
-  const DVec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-  const double of_lamp = sun_ ? glm::dot(normal, lamp_) : glm::dot(normal, lamp_ - t[0]);
-  const double least = level_ * glm::length(normal);
-  return std::ranges::all_of(corners_, [&](const DVec3& corner) {
-    const double of_corner = glm::dot(normal, corner - t[0]);
-    return of_lamp > 0 ? of_corner < -least : of_corner > least;
-  });
+bool ShadowBeam::is_met_midway(const BeamTriangle& t) const {
+  // Möller and Trumbore 1997
+  const DVec3 way = sun_ ? lamp_ : lamp_ - middle_, ab = t[1] - t[0], ac = t[2] - t[0], from = middle_ - t[0],
+              across = glm::cross(way, ac), over = glm::cross(from, ab);
+  const double size = glm::dot(ab, across), b = glm::dot(from, across) / size, c = glm::dot(way, over) / size;
+  const double far = glm::dot(ac, over) / size, at = height(middle_ + far * way);
+  return b >= 0 && c >= 0 && b + c <= 1 && far > 0 && at > level_ && at < top_ - level_;
 }
 
 bool ShadowBeam::is_cut_by(const BeamTriangle& t) const {
   const std::array<double, 3> heights{height(t[0]), height(t[1]), height(t[2])};
-  return std::ranges::min(heights) < -level_ && std::ranges::max(heights) > level_;
+  if (std::ranges::min(heights) >= -level_ || std::ranges::max(heights) <= level_) return false;
+  std::array<DVec3, 2> line;
+  for (std::size_t k = 0, end = 0; k < 3; ++k)
+    if (const double from = heights[k], to = heights[(k + 1) % 3]; (from < 0) != (to < 0))
+      line[end++] = t[k] + from / (from - to) * (t[(k + 1) % 3] - t[k]);
+  return may_meet(line[0], line[1]);
 }
 
 bool ShadowBeam::in_plane(const DVec3& a, const DVec3& b) const {

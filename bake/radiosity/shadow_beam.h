@@ -22,9 +22,9 @@ class ShadowBeam {
   bool may_meet(const TreeBox& box) const;
   bool may_meet(const BeamTriangle& triangle) const;
   bool may_meet(const DVec3& a, const DVec3& b) const;  // an edge
-  // Whether no ray passes by the triangle.
-  bool is_blocked_by(const BeamTriangle& triangle) const;
-  // Whether the triangle passes through the parallelogram's plane.
+  // Whether the triangle is in the way of the ray from the parallelogram's middle to the lamp's.
+  bool is_met_midway(const BeamTriangle& triangle) const;
+  // Whether the triangle may pass through the parallelogram.
   bool is_cut_by(const BeamTriangle& triangle) const;
   // Whether an edge lies in the parallelogram's plane: beyond such a foot the triangle hides what it leaves lit.
   bool in_plane(const DVec3& a, const DVec3& b) const;

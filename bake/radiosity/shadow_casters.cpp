@@ -118,13 +118,17 @@ void ShadowCasters::look_from(const Light& light, double level) {
   std::vector<bool>&spared = spared_.emplace_back(triangles_.size()), &front = fronts_.emplace_back(triangles_.size());
   for (const std::uint32_t t : order_) {
     const auto& [a, b, c] = triangles_[t];
-    const DVec3 normal = glm::cross(b - a, c - a);
-    const double faces = glm::dot(normal, sun ? place : place - a);
-    front[t] = faces > 0;
+    const DVec3 normal = glm::cross(b - a, c - a), way = sun ? place : place - a;
+    const double faces = glm::dot(normal, way), size = glm::length(normal),
+                 longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)}),
+                 width = 0x1p-22 * (longest + std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}));
+    // What is edge-on, by a few roundings of float, shows nothing of itself: a shadow ends with its neighbour, which
+    // faces the lamp.
+    const bool outwards = body_[t] == ~0u || volume_[body_[t]] > 0;
+    front[t] = faces > (outwards ? width : -width) * longest * glm::length(way);
     // A lamp on a wall is in its plane, by rounding before or behind it: neither casts a shadow.
-    spared[t] = !sun && std::abs(faces) <= level * glm::length(normal);
-    if (body_[t] == ~0u || std::abs(about[body_[t]]) > 1) continue;
-    spared[t] = spared[t] || faces * volume_[body_[t]] < 0;
+    spared[t] = !sun && std::abs(faces) <= level * size;
+    if (body_[t] != ~0u && std::abs(about[body_[t]]) <= 1) spared[t] = spared[t] || front[t] != outwards;
   }
 }
 
@@ -174,6 +178,38 @@ bool ShadowCasters::ends_shadow(std::uint32_t t, std::size_t k, std::size_t lamp
   const std::uint32_t other = beyond_[3 * std::size_t{t} + k];
   if (other == ~0u || filters_[t] != filters_[other]) return true;
   return (fronts_[lamp][t] == fronts_[lamp][other]) != alike_[3 * std::size_t{t} + k];
+}
+
+bool ShadowCasters::stop_all(const ShadowBeam& beam, std::span<const std::uint32_t> triangles, std::size_t lamp) const {
+  std::vector<bool> seen(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (!seen[i] && beam.is_met_midway(triangles_[triangles[i]]) && is_sheet(beam, triangles, triangles[i], lamp, seen))
+      return true;
+  return false;
+}
+
+bool ShadowCasters::is_sheet(const ShadowBeam& beam, std::span<const std::uint32_t> all, std::uint32_t first,
+                             std::size_t lamp, std::vector<bool>& seen) const {
+  std::vector<std::uint32_t> open;
+  const auto add = [&](std::uint32_t t) {
+    const auto at = std::ranges::lower_bound(all, t);
+    if (at == all.end() || *at != t) return false;
+    if (!seen[static_cast<std::size_t>(at - all.begin())]) open.push_back(t);
+    seen[static_cast<std::size_t>(at - all.begin())] = true;
+    return true;
+  };
+  add(first);
+  while (!open.empty()) {
+    const std::uint32_t t = open.back();
+    open.pop_back();
+    if (filters_[t] || beam.is_cut_by(triangles_[t])) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const DVec3 &a = triangles_[t][k], &b = triangles_[t][(k + 1) % 3];
+      if (!beam.may_meet(a, b)) continue;
+      if (ends_shadow(t, k, lamp) || beam.in_plane(a, b) || !add(beyond_[3 * std::size_t{t} + k])) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace oriel

@@ -25,12 +25,18 @@ class ShadowCasters {
   // Whether a shadow may end at edge k, from corner k to k + 1: no other triangle continues the surface there, or one
   // that faces the lamp with its other side, or that lets light through where this one does not.
   bool ends_shadow(std::uint32_t t, std::size_t k, std::size_t lamp) const;
+  // Whether none of a beam's rays passes by those triangles, ascending: a sheet of opaque ones, joined at edges where
+  // no shadow ends, is in the way of the middle ray and has no end among the others. In doubt false.
+  bool stop_all(const ShadowBeam& beam, std::span<const std::uint32_t> triangles, std::size_t lamp) const;
 
  private:
   struct Node {
     TreeBox box;
     std::uint32_t first = 0, count = 0;  // into order_; count 0: two children, the next node and `first`
   };
+  // Whether a triangle and those joined to it within the beam have no end there. Marks them as seen.
+  bool is_sheet(const ShadowBeam& beam, std::span<const std::uint32_t> all, std::uint32_t first, std::size_t lamp,
+                std::vector<bool>& seen) const;
   void join_edges(const Scene& scene);
   void find_bodies();
   void look_from(const Light& light, double level);

@@ -13,7 +13,6 @@ namespace oriel {
 std::size_t SharpRecord::words() const {
   std::size_t sum = is_split() ? 5 : 1;
   for (const LampShine& shine : shines) sum += 2 + shine.casters.size() + shine.screens.size();
-  for (const auto& quarter : quarters) sum += quarter ? quarter->words() : 0;
   return sum;
 }
 

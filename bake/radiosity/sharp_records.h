@@ -23,7 +23,7 @@ struct SharpRecord {
   std::vector<LampShine> shines;
   std::array<std::unique_ptr<SharpRecord>, 4> quarters;
   bool is_split() const { return quarters[0] != nullptr; }
-  std::size_t words() const;
+  std::size_t words() const;  // without its quarters'
 };
 
 // Those lights of the scene, and their profiles.

@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <ranges>
 #include <vector>
 
+#include "bake/radiosity/chart_surface.h"
 #include "bake/radiosity/sharp_records.h"
 #include "bake/radiosity/texels/lightmap_scene.h"
 #include "bake/radiosity/texels/sharp_charts.h"
 #include "bake/trace/punctual.h"
 #include "bake/trace/sampler.h"
 #include "formats/core/color.h"
-#include "formats/core/convex_hull.h"
 
 namespace oriel {
 
@@ -61,7 +62,7 @@ class TileLister {
         casters_(in.casters),
         chart_number_(chart),
         chart_(in.sharp.charts[chart]),
-        chart_at_(in.charts[chart_.page]),
+        surface_{in.scene.atlas, in.scene.map[chart_.page], in.charts[chart_.page], chart},
         level_(kLevel * double{in.scene.transport.accel.scene().radius()} + chart_.off) {}
 
   std::uint64_t rays() const { return rays_; }
@@ -125,41 +126,21 @@ class TileLister {
     return off - std::asin(reach / distance) > double{light.outer_cone_rad};
   }
 
-  // Whether a texel of the square is the chart's.
-  bool is_covered(const UVec2& lower, std::uint32_t side) const {
-    const std::uint32_t width = scene_.map[chart_.page].width, height = scene_.map[chart_.page].height;
-    for (std::uint32_t y = lower.y; y < std::min(lower.y + side, height); ++y)
-      for (std::uint32_t x = lower.x; x < std::min(lower.x + side, width); ++x)
-        if (chart_at_[std::size_t{y} * width + x] == chart_number_) return true;
-    return false;
-  }
-
-  // Whether the chart has a surface there.
-  bool is_on_chart(const DVec2& at) const {
-    const TexelMapPage& page = scene_.map[chart_.page];
-    if (!(at.x >= 0 && at.y >= 0 && at.x < page.width && at.y < page.height)) return false;
-    const std::uint32_t texel = static_cast<std::uint32_t>(at.y) * page.width + static_cast<std::uint32_t>(at.x);
-    if (chart_at_[texel] != chart_number_) return false;
-    const auto i = static_cast<std::size_t>(std::ranges::lower_bound(page.texel, texel) - page.texel.begin());
-    for (std::uint32_t f = page.first[i]; f < page.first[i + 1]; ++f) {
-      const auto [a, b, c] = texel_triangle(scene_.atlas, page.fragments[f].triangle);
-      const double ab = cross2(b - a, at - a), bc = cross2(c - b, at - b), ca = cross2(a - c, at - c);
-      if (std::min({ab, bc, ca}) >= 0 || std::max({ab, bc, ca}) <= 0) return true;
-    }
-    return false;
-  }
-
   // Settles what it can in a square of whole texels and goes on in its quarters.
   void fill(const Square& square, const UVec2& first, std::vector<Unsettled> lamps, std::vector<LampShine> settled,
             TileRecords& records) {
     const auto side = static_cast<std::uint32_t>(square.side);
     const UVec2 lower(square.lower);
-    if (!is_covered(lower, side)) return;
+    const auto is_covered = [&](std::uint32_t k) {
+      return surface_.is_of_texel(lower.x + k % side, lower.y + k / side);
+    };
+    if (std::ranges::none_of(std::views::iota(0u, side * side), is_covered)) return;
     if (side == 1) {
       SharpRecord record;
       for (most_splits_ = kMostSharpSplits; most_splits_ >= 0; --most_splits_) {
+        words_ = 0;
         record = part(square, 0, lamps, settled);
-        if (record.words() <= kMostOfTexel) break;
+        if (words_ <= kMostOfTexel) break;
       }
       if (record.is_split() || !record.shines.empty())
         records[std::size_t{lower.y - first.y} * kTile + lower.x - first.x] =
@@ -179,16 +160,17 @@ class TileLister {
     for (std::uint32_t k = 0; k < 4; ++k) fill(square.quarter(k), first, lamps, settled, records);
   }
 
+  // Ends early where a texel has too many words.
   SharpRecord part(const Square& square, int splits, std::vector<Unsettled> lamps, std::vector<LampShine> settled) {
-    lamps = settle(square, std::move(lamps), settled, splits + 1);
     SharpRecord record;
-    if (lamps.empty()) {
-      std::ranges::sort(settled, {}, &LampShine::lamp);
-      record.shines = std::move(settled);
-      return record;
-    }
-    for (std::uint32_t k = 0; k < 4; ++k)
+    if (words_ > kMostOfTexel) return record;
+    // Lightmap coordinates are rounded: what is close beside it may be shown.
+    if (!surface_.meets(square.lower, square.side, 2.0 / (1 << kMostSharpSplits))) lamps.clear(), settled.clear();
+    lamps = settle(square, std::move(lamps), settled, splits + 1);
+    if (lamps.empty()) std::ranges::sort(settled, {}, &LampShine::lamp), record.shines = std::move(settled);
+    for (std::uint32_t k = 0; k < 4 && !lamps.empty(); ++k)
       record.quarters[k] = std::make_unique<SharpRecord>(part(square.quarter(k), splits + 1, lamps, settled));
+    words_ += record.words();
     return record;
   }
 
@@ -212,11 +194,11 @@ class TileLister {
     for (const std::uint32_t t : lamp.casters)
       if (beam.may_meet(casters_.triangle(t))) shine.casters.push_back(t);
     if (shine.casters.empty()) return {Light::kSettled, std::move(shine), {}};
+    if (casters_.stop_all(beam, shine.casters, lamp.lamp)) return {};
     bool edges = false, rims = false, filters = false, patterned = false;
     std::size_t opaque = 0;
     for (const std::uint32_t t : shine.casters) {
       const BeamTriangle& triangle = casters_.triangle(t);
-      if (!casters_.is_filter(t) && beam.is_blocked_by(triangle)) return {};
       std::uint8_t bits = 0;
       bool near = casters_.is_patterned(t) || beam.is_cut_by(triangle);
       for (std::size_t k = 0; k < 3; ++k) {
@@ -279,9 +261,11 @@ class TileLister {
         if (casters_.ends_shadow(t, k, shine.lamp) && beam.may_meet(a, b)) fit.add_edge(a, b, triangle[(k + 2) % 3]);
       }
     if (!fit.is_soft()) return std::nullopt;
-    const Rays rays = rays_to(square, shine.lamp, kFitSide, kWider);
+    Rays rays = rays_to(square, shine.lamp, kRays, kWider);
+    if (rays.even()) rays = rays_to(square, shine.lamp, kRaysOfEdge, kWider);
+    if (!rays.even()) rays = rays_to(square, shine.lamp, kFitSide, kWider);
     if (rays.dim) return std::nullopt;
-    if (rays.sum == 0) return Look{};
+    if (rays.even()) return arrived(shine.lamp, rays.mean());
     std::bitset<kFitRays> lit;
     for (std::size_t i = 0; i < kFitRays; ++i) lit[i] = i >= rays.lit.size() || rays.lit[i] > 0;
     std::optional<std::vector<Screen>> screens = fit.fit(rays.rays, lit);
@@ -350,7 +334,7 @@ class TileLister {
     std::vector<DVec2> places;
     for (std::uint32_t k = 0; k < side * side; ++k) {
       places.push_back(0.5 + wider * ((DVec2(k % side, k / side) + 0.5) / double(side) - 0.5));
-      if (is_on_chart(square.lower + square.side * places[k])) out.places.push_back(places[k]);
+      if (surface_.meets(square.lower + square.side * places[k], 0, 0)) out.places.push_back(places[k]);
     }
     out.beyond = out.places.empty();
     if (out.beyond) out.places = places;
@@ -390,9 +374,10 @@ class TileLister {
   const ShadowCasters& casters_;
   std::uint32_t chart_number_;
   const ChartGrid& chart_;
-  const std::vector<std::uint32_t>& chart_at_;  // of the page, by texel
+  ChartSurface surface_;
   double level_;
   int most_splits_ = kMostSharpSplits;
+  std::size_t words_ = 0;  // of the texel so far
   std::uint64_t rays_ = 0;
 };
 
