@@ -5,6 +5,8 @@
 namespace oriel {
 namespace {
 
+constexpr float kLeastHighlight = 0.03f / (0.25f * 0.25f);  // reflectance / α²
+
 // (F(θ) - F(0)) / (1 - F(0)); F(0) = 1 leaves no room to rise.
 double rise(double f, double f0) {
   return f0 < 1 ? (f - f0) / (1 - f0) : 0;
@@ -67,6 +69,14 @@ DVec3 fresnel_weight(const FresnelCurve& curve, double cos_theta) {
   if (!(curve.ior > 0) || curve.schlick >= 1) return DVec3(schlick);
   const double exact = rise(fresnel_dielectric(curve.ior, cos_theta), dielectric_f0(curve.ior));
   return DVec3(exact + curve.schlick * (schlick - exact));
+}
+
+float reflectance_at_60_deg(const Vec3& f0, float f90, const FresnelCurve& curve) {
+  return max_component(glm::mix(f0, Vec3(f90), Vec3(fresnel_weight(curve, 0.5))));
+}
+
+bool shows_highlights(float reflectance, float alpha) {
+  return reflectance >= kLeastHighlight * alpha * alpha;
 }
 
 }  // namespace oriel

@@ -42,4 +42,12 @@ DVec3 fresnel_weight(const FresnelCurve& curve, double cos_theta);
 // f0 of a metal per channel.
 DVec3 metal_f0(Metal metal);
 
+// Largest channel of F at 60°.
+float reflectance_at_60_deg(const Vec3& f0, float f90, const FresnelCurve& curve);
+
+// Whether a lobe of that reflectance and width shows where lamps are. What it shows of a small lamp goes as
+// reflectance / α²: it does where that is no less than in a lobe of 3 % and roughness 0.5. Metals do at any roughness,
+// plastics up to about 0.6.
+bool shows_highlights(float reflectance, float alpha);
+
 }  // namespace oriel

@@ -35,7 +35,6 @@ std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 struct MaterialOptions {
   KernelOptions kernel;
   SliceOptions slices;
-  float max_roughness = 0.5f;  // rougher lobes see too much of the scene for an image: they get no kernel
   FresnelMapOptions fresnel;
   double error = 0.02;  // by which a map may differ from a material's own for the material to share it, see share.h
 };
@@ -45,7 +44,7 @@ SpecularLayers layers_of(const MaterialSummary& summary);
 
 struct MaterialMaps {
   std::vector<MaterialSummary> summaries;  // by material, as are the two below
-  std::vector<std::int32_t> kernel;        // into kernels; -1: no specular lobe, too rough, or unlit
+  std::vector<std::int32_t> kernel;        // into kernels; -1: no specular lobe, too faint and rough, or unlit
   std::vector<std::int32_t> fresnel_map;   // into fresnel_maps; -1: no specular lobe (f0 = f90 = 0), or unlit
   std::vector<BrdfKernel> kernels;
   std::vector<FresnelMap> fresnel_maps;

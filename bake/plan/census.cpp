@@ -33,11 +33,11 @@ LightCensus count_lights(const Scene& scene, const LightSet& lights) {
   return c;
 }
 
-LobeKind lobe_of(const SceneMaterial& m, const MaterialSummary& s, const BakeOptions& options) {
+LobeKind lobe_of(const SceneMaterial& m, const MaterialSummary& s) {
   if (m.unlit) return LobeKind::kUnlit;
   if (max_component(s.f0) <= 0 && s.f90 <= 0 && s.coat <= 0) return LobeKind::kMatte;
   if (s.alpha < kMirrorAlpha) return LobeKind::kMirror;
-  return s.roughness <= options.reflectors.max_roughness ? LobeKind::kGlossy : LobeKind::kBroad;
+  return shows_highlights(reflectance_at_60_deg(s.f0, s.f90, s.curve), s.alpha) ? LobeKind::kGlossy : LobeKind::kBroad;
 }
 
 // By triangle: whether a planar or curved reflector has it.
@@ -58,7 +58,7 @@ std::vector<MaterialCensus> list_materials(const CensusInput& in) {
     const MaterialSummary& summary = in.materials.summaries[m];
     MaterialCensus& c = all[m];
     c.name = material.name;
-    c.lobe = lobe_of(material, summary, in.options);
+    c.lobe = lobe_of(material, summary);
     c.alpha = summary.alpha;
     c.reflectance =
         c.lobe == LobeKind::kUnlit || c.lobe == LobeKind::kMatte ? 0 : reflectance_at_60_deg(in.reflections.lobes[m]);
@@ -141,18 +141,13 @@ StageCensus directional_stage(const CensusInput& in) {
 
 StageCensus radiance_stage(const CensusInput& in, bool dark) {
   const std::size_t count = in.options.with_radiance && !dark ? in.reflections.found.reflectors.size() : 0;
-  const ReflectorOptions& o = in.options.reflectors;
   std::string why;
   if (!in.options.with_radiance)
     why = "no radiance maps: left out by --only";
   else if (dark)
     why = "no radiance maps: the scene has no light";
   else if (count == 0)
-    why = fmt::format(
-        "no radiance maps: no planar surface with roughness <= {:.3g} (alpha <= {:.3g}), R >= {:.3g} % and {:.3g} m² "
-        "or "
-        "more is seen from where people walk",
-        o.max_roughness, o.max_roughness * o.max_roughness, 100 * o.min_reflectance, o.min_area_m2);
+    why = "no radiance maps: no planar surface that is shiny and large enough is seen from where people walk";
   else
     why = fmt::format("{} planar surface{} show{} an image to people who walk", count, count == 1 ? "" : "s",
                       count == 1 ? "s" : "");
@@ -181,8 +176,7 @@ StageCensus kernel_stage(const CensusInput& in, const std::vector<MaterialCensus
   if (!in.options.with_material)
     why = "no kernels: left out by --only";
   else if (kernels.empty())
-    why = fmt::format("no kernels: no material has a lobe of roughness {:.3g} or less",
-                      in.options.material.max_roughness);
+    why = "no kernels: no material reflects enough within a narrow lobe";
   else
     why = fmt::format("{} kernel{} serve{} {} material{}", kernels.size(), kernels.size() == 1 ? "" : "s",
                       kernels.size() == 1 ? "s" : "", served, served == 1 ? "" : "s");

@@ -13,7 +13,6 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kMinSide = 32;               // of maps that are made smaller
-constexpr double kNobodySees_m = 1e9;                // as far away as that is what no eye was found to see
 constexpr double kPixelsPerRad = 720 / (kPi / 3.0);  // of a frame
 
 std::uint32_t material_of(const Scene& scene, std::uint32_t triangle) {
@@ -115,12 +114,7 @@ void keep_most_important(std::span<const ReflectorMaterial> materials, bool eyes
   std::stable_sort(list.begin(), list.end(), [&](const FoundCurvedReflector& a, const FoundCurvedReflector& b) {
     return importance(a) > importance(b);
   });
-  if (list.size() <= limit) return;
-  found.omitted.push_back(
-      {fmt::format("{} curved pieces ('{}' and others): less important than the {} curved reflectors kept",
-                   list.size() - limit, list[limit].reflector.name, limit),
-       "no-reflections"});
-  list.resize(limit);
+  keep_first(limit, "curved pieces", list, found.omitted);
 }
 
 // Their centres were set; halves the maps of the least important until all fit.
@@ -132,8 +126,7 @@ void choose_sizes(std::span<const ReflectorMaterial> materials, bool eyes_known,
     const FoundCurvedReflector& f = found.reflectors[i];
     std::uint32_t size = surround_resolution(materials[f.reflector.material].roughness);
     if (eyes_known) {
-      const double distance =
-          f.seen.inverse_square > 0 ? std::sqrt(f.seen.pixels / f.seen.inverse_square) : kNobodySees_m;
+      const double distance = f.seen.inverse_square > 0 ? std::sqrt(f.seen.pixels / f.seen.inverse_square) : HUGE_VAL;
       size = std::min(size, surround_resolution_for_eyes(f.area_m2, distance));
     }
     found.maps[i].size = size;
@@ -179,11 +172,12 @@ FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const
                                              std::span<const ReflectorMaterial> materials,
                                              std::span<const SeenOfTriangle> seen, const CurvedOptions& options) {
   FoundCurvedReflectors out;
+  const float min_extent = options.min_extent_m * small_scene(scene.radius());
   std::size_t small = 0;
   std::string smallest;
   for (CurvedObject& object : connected_objects(scene, triangles)) {
     const Surface& surface = scene.surfaces[scene.triangle_surface[object.triangles.front()]];
-    if (glm::length(object.upper - object.lower) < options.min_extent_m) {
+    if (glm::length(object.upper - object.lower) < min_extent) {
       if (small++ == 0) smallest = surface.name;
       continue;
     }
@@ -206,7 +200,7 @@ FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const
   }
   if (small > 0)
     out.omitted.push_back(fmt::format("{} curved pieces ('{}'{}): smaller than {:.3g} m", small, smallest,
-                                      small > 1 ? " and others" : "", options.min_extent_m));
+                                      small > 1 ? " and others" : "", min_extent));
   keep_most_important(materials, !seen.empty(), options.max_reflectors, out);
   std::vector<SurroundMap> maps;
   for (FoundCurvedReflector& found : out.reflectors) {

@@ -8,7 +8,7 @@ namespace oriel {
 
 struct CurvedOptions {
   std::uint32_t max_reflectors = 128;  // the largest by reflectance * (1 - roughness) * what eyes see are kept
-  float min_extent_m = 0.05f;          // diagonal of the bounds: smaller ones are not seen
+  float min_extent_m = 0.05f;          // diagonal of the bounds: smaller ones are not seen; times small_scene()
   float max_extent_m = 2;              // longest side of the bounds: larger ones see too much from their middle, so
   std::uint32_t max_pieces = 8;        // they are cut into at most so many pieces
   std::uint64_t memory_bytes = std::uint64_t{32} << 20;  // of all maps in the pack, kMapBytesPerPixel each

@@ -226,15 +226,10 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
   std::sort(seen.begin(), seen.end());
   found.reflectors.clear();
   for (const auto& [worth, r] : seen) {
-    if (found.reflectors.size() < limit) {
-      found.reflectors.push_back(all[r]);
-      found.reflectors.back().shown_sr = shown[r];
-    } else {
-      found.omitted.push_back({fmt::format("'{}' ({:.3g} m²): less to be seen than the {} reflectors kept",
-                                           all[r].reflector.name, all[r].reflector.area_m2, limit),
-                               "no-reflections"});
-    }
+    found.reflectors.push_back(all[r]);
+    found.reflectors.back().shown_sr = shown[r];
   }
+  keep_first(limit, "reflectors", found.reflectors, found.omitted);
   return {};
 }
 

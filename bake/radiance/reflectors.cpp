@@ -25,9 +25,8 @@ std::string excluded_because(const SceneMaterial& m, const ReflectorMaterial& r,
   if (!(reflectance >= options.min_reflectance))
     return fmt::format("it reflects {:.2g} % at 60°, less than {:.2g} %", 100 * reflectance,
                        100 * options.min_reflectance);
-  if (!(r.roughness <= options.max_roughness))
-    return fmt::format("its roughness {:.3g} is above {:.3g}, where they are a glow without an outline", r.roughness,
-                       options.max_roughness);
+  if (!shows_highlights(reflectance, r.roughness * r.roughness))
+    return fmt::format("with a roughness of {:.3g} they are a glow without an outline", r.roughness);
   if (max_component(m.emission) > 0) return "it emits light, which outshines them";
   return {};
 }
@@ -104,21 +103,6 @@ bool add_sides(const Accel& accel, const PlanarPatch& patch, const ReflectorMate
   return any;
 }
 
-// Keeps the first ones and says which were dropped: by name the next few, the rest by number.
-void keep_most_important(std::uint32_t limit, FoundReflectors& found) {
-  constexpr std::size_t kNamed = 8;
-  auto& list = found.reflectors;
-  if (list.size() <= limit) return;
-  for (std::size_t i = limit; i < std::min<std::size_t>(list.size(), limit + kNamed); ++i)
-    found.omitted.push_back({fmt::format("'{}' ({:.3g} m²): less important than {} others", list[i].reflector.name,
-                                         list[i].reflector.area_m2, limit),
-                             "no-reflections"});
-  if (list.size() > limit + kNamed)
-    found.omitted.push_back(
-        {fmt::format("{} more reflectors: less important still", list.size() - limit - kNamed), "no-reflections"});
-  list.resize(limit);
-}
-
 double importance(const FoundReflector& f) {
   return double{f.reflectance} * f.reflector.area_m2 * (1 - f.roughness);
 }
@@ -157,7 +141,7 @@ FoundReflector make_reflector(const Scene& scene, const PlanarPatch& patch, bool
 }
 
 float reflectance_at_60_deg(const ReflectorMaterial& m) {
-  return max_component(glm::mix(m.f0, Vec3(m.f90), Vec3(fresnel_weight(m.curve, 0.5))));
+  return reflectance_at_60_deg(m.f0, m.f90, m.curve);
 }
 
 FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMaterial> materials,
@@ -166,27 +150,32 @@ FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMat
   ORIEL_CHECK_EQ(materials.size(), scene.materials.size());
   FoundReflectors out;
   const Groups groups = group_triangles(scene, materials, options, out.omitted);
-  const double radius = scene.radius();
+  const double radius = scene.radius(), small = small_scene(scene.radius());
   const PatchOptions patch_options{.max_angle_rad = options.max_angle_deg * kPiD / 180,
                                    .max_distance_m = options.flatness * radius,
                                    .relative_distance = kMaxFlatness,
                                    .min_distance_m = 1e-6 * radius,
-                                   .min_area_m2 = options.min_area_m2};
+                                   .min_area_m2 = small * small * options.min_area_m2};
   for (const auto& [key, triangles] : groups) {
     const auto& [material, name] = key;
-    double hidden = 0;
-    std::size_t hidden_count = 0;
+    const ReflectorMaterial& lobe = materials[material];
+    const bool wide = lobe.roughness > options.max_roughness;
+    double left_out_m2 = 0;
+    std::size_t left_out = 0;
     std::vector<std::uint32_t> planar;
-    for (const PlanarPatch& patch : find_planar_patches(scene, triangles, patch_options)) {
+    const bool by_surround_map = wide && shows_highlights(reflectance_at_60_deg(lobe), 1);  // planar or not: metals
+    const auto patches =
+        by_surround_map ? std::vector<PlanarPatch>() : find_planar_patches(scene, triangles, patch_options);
+    for (const PlanarPatch& patch : patches) {
       planar.insert(planar.end(), patch.triangles.begin(), patch.triangles.end());
-      if (add_sides(accel, patch, materials[material], options, out.reflectors)) continue;
-      hidden += patch.area_m2;
-      ++hidden_count;
+      if (!wide && add_sides(accel, patch, lobe, options, out.reflectors)) continue;
+      left_out_m2 += patch.area_m2;
+      ++left_out;
     }
-    if (hidden_count > 0)
-      out.omitted.push_back(
-          fmt::format("'{}' ({} planar pieces, {:.3g} m²): sees nothing further away than a tenth of its size", name,
-                      hidden_count, hidden));
+    if (left_out > 0)
+      out.omitted.push_back(fmt::format("'{}' ({} planar pieces, {:.3g} m²): {}", name, left_out, left_out_m2,
+                                        wide ? "roughness above 0.5 shows no image in a plane"
+                                             : "sees nothing further away than a tenth of its size"));
     std::sort(planar.begin(), planar.end());
     std::set_difference(triangles.begin(), triangles.end(), planar.begin(), planar.end(),
                         std::back_inserter(out.unplanar));
@@ -195,7 +184,7 @@ FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMat
   std::stable_sort(out.reflectors.begin(), out.reflectors.end(), [](const FoundReflector& a, const FoundReflector& b) {
     return importance(a) != importance(b) ? importance(a) > importance(b) : a.triangles.front() < b.triangles.front();
   });
-  keep_most_important(options.max_reflectors, out);
+  keep_first(options.max_reflectors, "reflectors", out.reflectors, out.omitted);
   return out;
 }
 

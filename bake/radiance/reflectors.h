@@ -2,6 +2,7 @@
 // handful of them per house: only what the scene requires).
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,10 +30,16 @@ inline void fields(Archive& archive, ReflectorMaterial& o) {
 // R at 60 degrees, largest channel.
 float reflectance_at_60_deg(const ReflectorMaterial& material);
 
+// What sizes are multiplied by in a scene of that radius, m: below 2 m it is no building but a model of things, and
+// their own size counts.
+inline float small_scene(float radius) {
+  return std::min(1.0f, radius / 2);
+}
+
 struct ReflectorOptions {
-  float max_roughness = 0.5f;         // wider lobes show no image
+  float max_roughness = 0.5f;         // of planar ones: wider lobes show no image
   float min_reflectance = 0.03f;      // at 60°, largest channel: weaker ones are not seen
-  float min_area_m2 = 0.25f;          // of one reflector
+  float min_area_m2 = 0.25f;          // of one reflector; times small_scene()²
   std::uint32_t max_reflectors = 32;  // the largest by reflectance * area * (1 - roughness) are kept
   float max_angle_deg = 0.5f;         // of a triangle's normal from its reflector's
   float flatness = 1e-4f;       // largest distance of a vertex from the plane, in scene radii; and at most 1e-3 of the
@@ -71,6 +78,16 @@ struct FoundReflectors {
   // Triangles whose material shows an image, but which lie in no planar patch that is large enough; ascending.
   std::vector<std::uint32_t> unplanar;
 };
+
+// Of reflectors in order of importance; says what is left out.
+template <class Found>
+void keep_first(std::size_t limit, const char* what, std::vector<Found>& list, std::vector<Warning>& omitted) {
+  if (list.size() <= limit) return;
+  omitted.push_back({fmt::format("{} {} ('{}' and others): less important than the {} kept", list.size() - limit, what,
+                                 list[limit].reflector.name, limit),
+                     "no-reflections"});
+  list.resize(limit);
+}
 
 // Coplanar triangles of one material in parts of one name make a reflector, connected or not. Its frame: origin in the
 // middle of its bounds, z the normal (area-weighted mean), x, y the tightest rectangle's axes, or those aligned with

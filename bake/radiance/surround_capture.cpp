@@ -1,6 +1,7 @@
 #include "bake/radiance/surround_capture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "bake/jobs/units.h"
@@ -17,10 +18,6 @@ constexpr double kRaysARow = 2048;        // about
 constexpr std::uint32_t kSunPoints = 64;  // of a disk
 constexpr float kBeforeLight = 1e-4f;     // of its distance: what holds a light does not hide it
 
-float texels_of(const SurroundMap& map) {
-  return static_cast<float>(map.size) * static_cast<float>(map.size);
-}
-
 class SurroundCapture {
  public:
   SurroundCapture(const Accel& accel, const FoundCurvedReflectors& found, const FoundCurvedReflector& reflector,
@@ -28,7 +25,7 @@ class SurroundCapture {
       : scene_(accel.scene()),
         outgoing_(outgoing),
         reflectance_(reflector.reflectance),
-        lobe_texels_(reflector.alpha * reflector.alpha * texels_of(found.maps[reflector.reflector.map])),
+        lobe_texels_(std::pow(reflector.alpha * static_cast<float>(found.maps[reflector.reflector.map].size), 2.0f)),
         of_glass_(is_glass(scene_, reflector.triangles.front())),
         rays_(accel, found.objects[reflector.object], found.maps[reflector.reflector.map].centre, reflector.view) {}
 

@@ -110,14 +110,6 @@ Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {
   return shown_light(baked, seen, surface_at(baked.accel, seen.hit, -seen.towards_eye, seen.width_m), !seen.mirror);
 }
 
-OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing) {
-  return [&](const SeenSurface& seen) {
-    SeenSurface shown = seen;
-    shown.glossy = seen.glossy || (!seen.mirror && triangles[seen.hit.triangle]);
-    return outgoing(shown);
-  };
-}
-
 Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
                                std::uint64_t seed, std::uint64_t& rays) {
   const SurfacePoint surface = surface_at(baked.accel, seen.hit, -seen.towards_eye, seen.width_m);
@@ -127,6 +119,14 @@ Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen,
   paths = std::max(1u, static_cast<std::uint32_t>(share * static_cast<float>(paths) / seen.averaged));
   if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths = std::max(1u, paths / kFewerForMirrors);
   return shown_light(baked, seen, surface, false) + lobe_light(baked, {surface, seen.towards_eye}, paths, seed, rays);
+}
+
+OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const BakedScene& baked, std::uint64_t seed) {
+  return [&, seed](const SeenSurface& seen) {
+    SeenSurface shown = seen;
+    shown.glossy = seen.glossy || (!seen.mirror && triangles[seen.hit.triangle]);
+    return baked_radiance_with_lobes(baked, shown, kLobePaths, seed, *seen.rays);
+  };
 }
 
 }  // namespace oriel

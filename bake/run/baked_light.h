@@ -45,7 +45,7 @@ inline constexpr std::uint32_t kLobePaths = 64;
 Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
                                std::uint64_t seed, std::uint64_t& rays);
 
-// The light with the lobes of these triangles traced. Both must outlive it.
-OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing);
+// The same of kLobePaths, with the lobes of these triangles traced, too. Both must outlive it.
+OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const BakedScene& baked, std::uint64_t seed);
 
 }  // namespace oriel

@@ -15,25 +15,19 @@ constexpr double kJudging = 0.3;          // of the seconds of planning: held-ou
 // What capturing all surround maps takes, by a 64th of their texels.
 Result<double> surround_seconds(const BakedScene& baked, const FoundReflections& all, Context& context) {
   const std::vector<bool> is_shiny = shiny_triangles(baked.accel.scene(), all);
-  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(baked, seen, kLobePaths, context.seed, *seen.rays);
-  };
   FoundCurvedReflectors curved = all.curved;
   const double texels = make_coarser(1, curved.maps), tried = make_coarser(kTried, curved.maps);
   if (!(tried > 0)) return 0;
   for (FoundCurvedReflector& reflector : curved.reflectors) reflector.alpha *= kTried;  // as many paths a texel
   const Trial trial(context);
   const ElapsedTime clock;
-  ORIEL_TRY_VOID(capture_surroundings(baked.accel, curved, with_lobes_of(is_shiny, outgoing), context));
+  ORIEL_TRY_VOID(capture_surroundings(baked.accel, curved, with_lobes_of(is_shiny, baked, context.seed), context));
   return texels / tried * clock.spent();
 }
 
 // Captures maps whose sides are divided: what all of them are likely to take.
 Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
   const FoundReflections& all = planned.all;
-  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(dark, seen, kLobePaths, context.seed, *seen.rays);
-  };
   const ReflectedSurroundings surroundings(dark.accel, all.found.reflectors, options.sight);
   std::vector<RadianceMap> maps = planned.plan.maps;
   double pixels = 0;
@@ -45,7 +39,7 @@ Status time_capture(const BakeOptions& options, const BakedScene& dark, Context&
   const ElapsedTime clock;
   {
     const Trial trial(context);
-    ORIEL_TRY_VOID(capture_maps({surroundings, with_lobes_of(is_curved, outgoing)}, context, maps));
+    ORIEL_TRY_VOID(capture_maps({surroundings, with_lobes_of(is_curved, dark, context.seed)}, context, maps));
   }
   const double planar_s = clock.spent() * planned.planar_pixels() / std::max(pixels, 1.0);
   ORIEL_TRY(planned.surround_s, surround_seconds(dark, all, context));

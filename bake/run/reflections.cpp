@@ -51,9 +51,7 @@ Status find_planar(const BakeOptions& options, const Accel& accel, Context& cont
   append(all.omissions, found.omitted);
   const bool late = std::ranges::any_of(found.omitted, [](const Warning& w) { return w.code == "time-over"; });
   if (found.reflectors.empty() && !late)
-    all.omissions.push_back(fmt::format(
-        "radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
-        options.reflectors.max_roughness, options.reflectors.min_area_m2));
+    all.omissions.emplace_back("radiance maps: no planar surface that is shiny and large enough is seen");
   return {};
 }
 
@@ -268,12 +266,9 @@ Result<BakedReflections> bake_reflections(const BakeTask& bake, PlannedReflectio
   report.omissions = std::move(omissions);
   if (planned.empty()) return out;
   std::vector<FoundReflector>& reflectors = found.reflectors;
-  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(baked, seen, kLobePaths, context.seed, *seen.rays);
-  };
   const std::vector<bool> is_curved = curved_triangles(accel.scene(), planned.all);
   const std::vector<bool> is_shiny = shiny_triangles(accel.scene(), planned.all);
-  const OutgoingRadiance to_planar = with_lobes_of(is_curved, outgoing);
+  const OutgoingRadiance to_planar = with_lobes_of(is_curved, baked, context.seed);
   if (options.with_material)
     ORIEL_TRY_VOID(leave_out_lamps(bake, lobe_widths(materials), reflectors, out.emitters, report.omissions));
   const ReflectedSurroundings surroundings(accel, reflectors, options.sight);
@@ -282,7 +277,7 @@ Result<BakedReflections> bake_reflections(const BakeTask& bake, PlannedReflectio
   const Stage stage{context, &rays};
   const LitSurroundings lit{surroundings, to_planar};
   ORIEL_TRY_VOID(capture_maps(lit, stage, plan.maps));
-  ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), stage));
+  ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, baked, context.seed), stage));
   add_punctual_lights(accel, curved);
   const Judges judges{held_out_eyes(region, kHeldOutEyes, context.seed), cameras_of(region.points)};
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());

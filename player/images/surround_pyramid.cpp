@@ -21,13 +21,16 @@ struct Square {
   }
 };
 
-// Light, and in w the share of the texel that is usable.
+// Light, and in w the usable part of the texel's solid angle, in those of a texel in the middle of the map.
 using LightLevel = Square<Vec4>;
 
 LightLevel first_level(const SurroundMap& map) {
   LightLevel level(static_cast<int>(map.size));
-  for (std::size_t i = 0; i < level.texels.size(); ++i)
-    if (map.valid[i] != 0 && is_finite(map.radiance[i])) level.texels[i] = Vec4(map.radiance[i], 1);
+  for (std::size_t i = 0; i < level.texels.size(); ++i) {
+    if (map.valid[i] == 0 || !is_finite(map.radiance[i])) continue;
+    const Vec2 at = (Vec2(i % map.size, i / map.size) + 0.5f) / static_cast<float>(map.size) * 2.0f - 1.0f;
+    level.texels[i] = Vec4(map.radiance[i], std::pow(glm::length(direction_from_octahedral(at)), -3.0f));
+  }
   return level;
 }
 

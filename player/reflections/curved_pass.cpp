@@ -18,8 +18,7 @@ enum CurvedUnit {
   kCurvedShaded = 7,
 };
 
-// Radius (tangent) that holds half of a lobe, from which on its taps find their own distances: a roughness of about
-// 0.17.
+// Radius (tangent) that holds half of a lobe, from which on its taps find their own distances: roughness 0.17 or so.
 constexpr float kWideLobe = 0.03f;
 
 void draw_reflector(const FrameContext& context, const GpuCurvedReflector& reflector) {

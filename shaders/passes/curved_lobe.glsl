@@ -60,10 +60,12 @@ vec3 lobe_light(vec3 origin, vec3 normal, vec3 mirror, float cos_theta, float in
   for (int i = 0; i < u_tap_count; ++i) {
     vec4 tap = kernel_tap(u_taps, i, row);
     vec3 direction = lobe_direction(mirror, across, along, tap.xy);
-    if (dot(direction, normal) <= 0.0) continue;
+    float width = tap.z / (1.0 + 0.25 * dot(tap.xy, tap.xy));  // an angle
+    float weight = tap.w * clamp(0.5 + dot(direction, normal) / width, 0.0, 1.0);  // of what the horizon leaves of it
+    if (weight <= 0.0) continue;
     float inverse = u_wide ? tap_distance(origin, direction) : inverse_distance;
-    sum += tap.w * light_along(origin, direction, inverse, max(tap.z, spread));
-    total += tap.w;
+    sum += weight * light_along(origin, direction, inverse, max(width, spread));
+    total += weight;
   }
   return total > 0.0 ? sum / total : light_along(origin, mirror, inverse_distance, spread);
 }

@@ -72,7 +72,7 @@ TEST(SurroundMarch, SeesPastWhatHidesIt) {
   EXPECT_LT(hit.direction.z, -0.9f);
 }
 
-// Light of a level is the mean of the texels below, borders go on over the edges, gaps are filled.
+// Light of a level is the mean of the texels below by solid angle, borders go on over the edges, gaps are filled.
 TEST(SurroundPyramid, LevelsBordersAndGaps) {
   SurroundMap map;
   map.size = 4;
@@ -89,9 +89,10 @@ TEST(SurroundPyramid, LevelsBordersAndGaps) {
   EXPECT_NEAR(light(0, 2, 3), 14, 0.04f);
   EXPECT_NEAR(light(0, -1, 1), 8, 0.04f);  // the row is turned over
   EXPECT_NEAR(light(0, 1, 4), 14, 0.04f);
-  EXPECT_NEAR(light(1, 0, 0), (0 + 1 + 4) / 3.0f, 0.01f);
+  const double edge = std::pow(0.625, -1.5), other = std::pow(0.375, -1.5);  // solid angles, over the flat texel's
+  EXPECT_NEAR(light(1, 0, 0), (1 + 4) * edge / (other + 2 * edge), 0.01);
   EXPECT_NEAR(light(0, 1, 1), light(1, 0, 0), 0.01f);
-  EXPECT_NEAR(light(2, 0, 0), (15 * 16 / 2 - 5) / 15.0f, 0.04f);
+  EXPECT_NEAR(light(2, 0, 0), (60 * edge + 55 * other) / (8 * edge + 7 * other), 0.04);
   EXPECT_EQ(p.range, Vec2(1, 0.5f));
   ASSERT_EQ(p.inverse_distance.size(), 36u);
   EXPECT_EQ(p.inverse_distance[6 + 4], 0.5f);
@@ -101,6 +102,22 @@ TEST(SurroundPyramid, LevelsBordersAndGaps) {
   map.inverse_distance.resize(1);
   map.valid.resize(1);
   EXPECT_EQ(make_surround_pyramid(map).extent, IVec2(3));
+}
+
+// 3 cos² about an axis has a mean of 1 over all directions.
+TEST(SurroundPyramid, TheCoarsestLevelIsTheMeanOverDirections) {
+  SurroundMap map;
+  map.size = 64;
+  for (int i = 0; i < 64 * 64; ++i) {
+    const Vec3 d = glm::normalize(direction_from_octahedral((Vec2(i % 64, i / 64) + 0.5f) / 32.0f - 1.0f));
+    map.radiance.push_back(Vec3(3 * d.x * d.x, 3 * d.y * d.y, 3 * d.z * d.z));
+  }
+  map.inverse_distance.assign(64 * 64, 1);
+  map.valid.assign(64 * 64, 1);
+  const SurroundPyramid p = make_surround_pyramid(map);
+  const IVec2 at = pyramid_corner(64, 6) + 1;
+  const Vec3 mean = p.scale * rgb_from_rgb9e5(p.light[static_cast<std::size_t>(at.y * p.extent.x + at.x)]);
+  EXPECT_LT(glm::length(mean - 1.0f), 0.01f);
 }
 
 using SurroundFrames = FrameTest;

@@ -6,7 +6,7 @@ import type { Vec3 } from './vec';
 export interface GpuSurround {
   centre: Vec3; size: number; scale: number; range: [number, number]; tint: Vec3; light: WebGLTexture; inverseDistance: WebGLTexture;
 }
-/** Light, and in the fourth the share of the texel that is usable. */
+/** Light, and in the fourth the usable part of the texel's solid angle. */
 interface Level { size: number; texels: Float32Array; }
 
 function firstLevel(map: Surround): Level {
@@ -14,7 +14,9 @@ function firstLevel(map: Surround): Level {
   map.light.forEach((code, i) => {
     if (map.valid[i] === 0) return;
     const scale = map.scale * 2 ** ((code >>> 27) - 24);
-    texels.set([(code & 511) * scale, ((code >>> 9) & 511) * scale, ((code >>> 18) & 511) * scale, 1], 4 * i);
+    const x = (2 * (i % map.size) + 1) / map.size - 1, y = (2 * Math.floor(i / map.size) + 1) / map.size - 1;
+    const z = 1 - Math.abs(x) - Math.abs(y), u = z < 0 ? 1 - Math.abs(y) : x, v = z < 0 ? 1 - Math.abs(x) : y;
+    texels.set([(code & 511) * scale, ((code >>> 9) & 511) * scale, ((code >>> 18) & 511) * scale, Math.hypot(u, v, z) ** -3], 4 * i);
   });
   return { size: map.size, texels };
 }

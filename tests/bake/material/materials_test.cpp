@@ -28,15 +28,16 @@ TEST(Materials, ShareMapsThatAreTheSame) {
   SceneMaterial unlit = glossy(0);
   unlit.unlit = true;
   parts.add(unlit);
-  for (std::uint32_t m = 0; m < 7; ++m) parts.quad("q", m, {0, 0, static_cast<float>(m)}, {1, 0, 0}, {0, 2, 0});
+  parts.add(glossy(0.9f, 1));  // a metal's lobe shows highlights however wide it is
+  for (std::uint32_t m = 0; m < 8; ++m) parts.quad("q", m, {0, 0, static_cast<float>(m)}, {1, 0, 0}, {0, 2, 0});
   const Scene scene = parts.finish();
   Context context;
   const auto maps = bake_materials(scene, {}, context);
   ASSERT_TRUE(maps);
-  EXPECT_EQ(maps->kernels.size(), 2u);
-  EXPECT_EQ(maps->fresnel_maps.size(), 4u);
-  EXPECT_EQ(maps->kernel, (std::vector<std::int32_t>{0, 0, 0, 1, -1, -1, -1}));
-  EXPECT_EQ(maps->fresnel_map, (std::vector<std::int32_t>{0, 1, 0, 2, 3, -1, -1}));
+  EXPECT_EQ(maps->kernels.size(), 3u);
+  EXPECT_EQ(maps->fresnel_maps.size(), 5u);
+  EXPECT_EQ(maps->kernel, (std::vector<std::int32_t>{0, 0, 0, 1, -1, -1, -1, 2}));
+  EXPECT_EQ(maps->fresnel_map, (std::vector<std::int32_t>{0, 1, 0, 2, 3, -1, -1, 4}));
   EXPECT_NEAR(maps->kernels[0].alpha, 0.01f, 1e-6);
   EXPECT_NEAR(maps->fresnel_maps[0].table.back().r, 0.04f, 2e-3);
   EXPECT_NEAR(maps->fresnel_maps[1].table.back().r, 0.8f, 3e-3);

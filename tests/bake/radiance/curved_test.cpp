@@ -71,6 +71,20 @@ TEST(CurvedReflectors, ABallIsOneAndAPlaneIsNot) {
   EXPECT_TRUE(found.omitted.empty());
 }
 
+// What counts in a model of a few centimetres is its own size.
+TEST(CurvedReflectors, SmallScenesReflectAsLargeOnesDo) {
+  test::MirrorRoom room(0.01f);
+  test::SceneParts parts;
+  parts.scene() = std::move(room.scene);
+  parts.sphere("ball", 0, 0.01f * BallRoom::kCentre, 0.01f * BallRoom::kRadius, 2);
+  room.scene = parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const FoundReflectors flat = find_reflectors(*accel, room.materials());
+  EXPECT_EQ(flat.reflectors.size(), 1u);
+  EXPECT_EQ(find_curved_reflectors(room.scene, flat.unplanar, room.materials(), {}).reflectors.size(), 1u);
+}
+
 TEST(CurvedReflectors, LargeOnesAreCutSmallOnesLeftOutAndTheMostImportantKept) {
   test::MirrorRoom room;
   test::SceneParts parts;
