@@ -49,9 +49,6 @@ Status find_planar(const BakeOptions& options, const Accel& accel, Context& cont
   found = find_reflectors(accel, all.lobes, wide);
   ORIEL_TRY_VOID(keep_seen_reflectors(accel, all.eyes, options.reflectors.max_reflectors, context, found));
   append(all.omissions, found.omitted);
-  const bool late = std::ranges::any_of(found.omitted, [](const Warning& w) { return w.code == "time-over"; });
-  if (found.reflectors.empty() && !late)
-    all.omissions.emplace_back("radiance maps: no planar surface that is shiny and large enough is seen");
   return {};
 }
 

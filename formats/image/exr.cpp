@@ -104,7 +104,7 @@ Result<FloatImage> shape_of(const std::string& where, const Imf::ChannelList& ch
   return image;
 }
 
-Result<LayeredImage> decode(const std::string& where, const Bytes& bytes, bool named_layers) {
+Result<LayeredImage> decode(const std::string& where, const Bytes& bytes) {
   MemoryIn in(bytes);
   bool tiled = false, deep = false, multi_part = false;
   if (!Imf::isOpenExrFile(in, tiled, deep, multi_part)) return invalid(where, "is not an OpenEXR file");
@@ -119,7 +119,7 @@ Result<LayeredImage> decode(const std::string& where, const Bytes& bytes, bool n
     return invalid(where, "found {} x {} pixels, expected 1 to {} a side and at most {} in all", width, height,
                    kMaxSide, kMaxPixels);
   std::set<std::string> names;
-  if (named_layers) file.header().channels().layers(names);
+  file.header().channels().layers(names);
   names.insert("");
   LayeredImage out;
   Imf::FrameBuffer buffer;
@@ -138,16 +138,6 @@ Result<LayeredImage> decode(const std::string& where, const Bytes& bytes, bool n
     if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
       out.attributes[it.name()] = text->value();
   return out;
-}
-
-// Our code throws nothing, but OpenEXR does.
-Result<LayeredImage> read(const std::filesystem::path& path, bool named_layers) {
-  ORIEL_TRY(const Bytes bytes, read_file(path));
-  try {
-    return decode(path.string(), bytes, named_layers);
-  } catch (const std::exception& e) {
-    return invalid(path.string(), "is a broken OpenEXR file: {}", e.what());
-  }
 }
 
 using Layers = std::map<std::string, const FloatImage*>;
@@ -196,13 +186,14 @@ Status write_exr(const std::filesystem::path& path, const LayeredImage& image) {
   return write(path, layers, image.attributes);
 }
 
-Result<FloatImage> read_exr(const std::filesystem::path& path) {
-  ORIEL_TRY(LayeredImage image, read(path, false));
-  return std::move(image.layers.at(""));
-}
-
+// Our code throws nothing, but OpenEXR does.
 Result<LayeredImage> read_layered_exr(const std::filesystem::path& path) {
-  return read(path, true);
+  ORIEL_TRY(const Bytes bytes, read_file(path));
+  try {
+    return decode(path.string(), bytes);
+  } catch (const std::exception& e) {
+    return invalid(path.string(), "is a broken OpenEXR file: {}", e.what());
+  }
 }
 
 }  // namespace oriel

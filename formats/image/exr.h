@@ -25,11 +25,8 @@ struct LayeredImage {
 // The same of layers; the one without a name must be there. Errors also: kInvalid for layers that differ in size.
 Status write_exr(const std::filesystem::path& path, const LayeredImage& image);
 
-// Reads R, G, B (and A) or Y of a flat, single-part file of any pixel type and compression. Other channels are left
-// out. Errors: kIo; kInvalid for deep and multi-part files, subsampled or missing channels, broken files.
-Result<FloatImage> read_exr(const std::filesystem::path& path);
-
-// Reads every layer that has R, G, B (and A) or Y, and the string attributes. Errors: the same.
+// Reads every layer that has R, G, B (and A) or Y of a flat, single-part file of any pixel type and compression, and
+// the string attributes. Errors: kIo; kInvalid for deep and multi-part files, subsampled or missing channels.
 Result<LayeredImage> read_layered_exr(const std::filesystem::path& path);
 
 }  // namespace oriel

@@ -56,8 +56,8 @@ bool blurs(const GpuKernel& kernel, const FrameOptions& options) {
 }
 
 // Of a reflector in an image.
-bool shows_least(const MarkedReflector& m) {
-  return m.worth * share_of_picture(m.screen) < kLeastShown;
+bool shows_least(float worth, const NdcRect& screen) {
+  return worth * share_of_picture(screen) < kLeastShown;
 }
 
 template <class Draw>
@@ -98,7 +98,9 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
     if (marked.screen.empty) continue;
     const float left = target.reflectance * reflectance_of(scene.pack(), reflector.material);
     marked.worth = left * target.share;
-    if (target.frame == nullptr && (!worth_an_image(context, target, reflector, left) || shows_least(marked))) continue;
+    if (target.frame == nullptr &&
+        (!worth_an_image(context, target, reflector, left) || shows_least(marked.worth, marked.screen)))
+      continue;
     if (maps) {
       ORIEL_TRY(const bool shows, scene.may_show_maps(reflector));
       marked.waits = !shows;
@@ -113,7 +115,7 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
     if (m.waits && !m.screen.empty) scene.want_maps(*m.reflector);
   }
   std::erase_if(out, [&](const MarkedReflector& m) {
-    return m.screen.empty || m.waits || (target.frame == nullptr && shows_least(m));
+    return m.screen.empty || m.waits || (target.frame == nullptr && shows_least(m.worth, m.screen));
   });
   afford(context, target, out);
   std::vector<MarkedReflector> drawn;
@@ -343,6 +345,9 @@ Result<std::vector<const GpuCurvedReflector*>> ReflectionRenderer::draw_curved(c
     if (!may_be_visible(frustum, reflector.triangles.bounds)) continue;
     const bool see_through = scene.is_transparent(reflector.material);
     if (!in_frame && see_through) continue;
+    const float worth = target.share * target.reflectance * reflectance_of(scene.pack(), reflector.material);
+    const NdcRect screen = project_box(view.clip_from_pack, reflector.triangles.bounds);
+    if (target.blurs && shows_least(worth, screen)) continue;  // a mirror's image of a thing is as the thing
     ORIEL_TRY(const bool there, scene.bring_surround_map(reflector.map));
     if (!there) continue;
     if (see_through) {

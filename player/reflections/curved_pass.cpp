@@ -174,7 +174,7 @@ void CurvedPass::set_lobe(const gpu::Program& program, const FrameContext& conte
   const auto& [scene, view, options, stats] = context;
   const SurroundTextures& map = scene.surround_map(reflector.map);
   const bool sharp = options.show == Show::kM || options.blur == Blur::kOff;
-  const GpuKernel& kernel = sharp ? scene.mirror_kernel() : scene.kernel(reflector.material, options.coarse);
+  const GpuKernel& kernel = sharp ? scene.mirror_kernel() : scene.curved_kernel(reflector.material, options.coarse);
   map.light.bind(kCurvedLight);
   map.inverse_distance.bind(kCurvedDistance);
   kernel.taps.bind(kCurvedTaps);

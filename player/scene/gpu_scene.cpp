@@ -10,7 +10,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kKernelTaps = 48, kCoarseTaps = 12;
+constexpr int kKernelTaps = 48, kFaintTaps = 24, kCoarseTaps = 12;
 constexpr std::size_t kFewTriangles = 20000;  // that no device minds
 constexpr float kFewerPixels = 1;             // of a coarse frame, that fewer triangles are off by
 
@@ -362,17 +362,24 @@ const LoadedLightmap& GpuScene::lightmap(std::int32_t index) const {
 
 const GpuKernel& GpuScene::kernel(std::uint32_t material, bool coarse) {
   const Material& m = pack_.materials[material];
-  return kernel(m.kernel, m.fresnel_map, coarse);
+  return kernel(m.kernel, m.fresnel_map, coarse ? kCoarseTaps : kKernelTaps);
 }
 
-const GpuKernel& GpuScene::kernel(std::int32_t index, std::int32_t fresnel_map, bool coarse) {
-  const auto [at, added] = kernels_.try_emplace({index, fresnel_map, coarse});
+const GpuKernel& GpuScene::curved_kernel(std::uint32_t material, bool coarse) {
+  const Material& m = pack_.materials[material];
+  const bool bright =
+      m.fresnel_map >= 0 && max_component(lookup_by_cosine(pack_.fresnel_maps[m.fresnel_map].table, 0.5f)) >= 0.5f;
+  return kernel(m.kernel, m.fresnel_map, coarse ? kCoarseTaps : bright ? kKernelTaps : kFaintTaps);
+}
+
+const GpuKernel& GpuScene::kernel(std::int32_t index, std::int32_t fresnel_map, int taps_a_row) {
+  const auto [at, added] = kernels_.try_emplace({index, fresnel_map, taps_a_row});
   if (!added) return at->second;
   const BrdfKernel mirror;
   const FresnelMap none;
   const BrdfKernel& kernel = index < 0 ? mirror : pack_.kernels[static_cast<std::size_t>(index)];
   const FresnelMap& fresnel = fresnel_map < 0 ? none : pack_.fresnel_maps[static_cast<std::size_t>(fresnel_map)];
-  KernelTaps taps = make_kernel_taps(kernel, coarse ? kCoarseTaps : kKernelTaps);
+  KernelTaps taps = make_kernel_taps(kernel, taps_a_row);
   const std::vector<float> factors = weigh_by_fresnel(taps, fresnel);
   at->second = {upload_kernel_taps(taps), taps.count, taps.rows, taps.median, {}};
   if (!kernel.fits.empty()) at->second.fits = upload_lobe_fits(kernel, fresnel, factors);

@@ -185,12 +185,14 @@ class GpuScene {
   std::uint64_t map_bytes() const { return images_->map_bytes() + map_meshes_.bytes(); }
   // A material's, made on first use and kept. coarse: of few taps.
   const GpuKernel& kernel(std::uint32_t material, bool coarse);
-  const GpuKernel& mirror_kernel() { return kernel(-1, -1, false); }
+  // For curved reflectors, each of whose taps finds its own distance: half of the taps where little is reflected.
+  const GpuKernel& curved_kernel(std::uint32_t material, bool coarse);
+  const GpuKernel& mirror_kernel() { return kernel(-1, -1, 1); }
 
  private:
   GpuScene() = default;
   // Of Pack::kernels and Pack::fresnel_maps, -1: a mirror's, none.
-  const GpuKernel& kernel(std::int32_t index, std::int32_t fresnel_map, bool coarse);
+  const GpuKernel& kernel(std::int32_t index, std::int32_t fresnel_map, int taps_a_row);
   void upload_geometry();
   void upload_images(std::shared_ptr<const DeferredImages> deferred, const LoadingOptions& loading);
   void keep_texels();
@@ -228,7 +230,7 @@ class GpuScene {
   gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;
   GpuSharpLight sharp_light_;
-  std::map<std::tuple<std::int32_t, std::int32_t, bool>, GpuKernel> kernels_;
+  std::map<std::tuple<std::int32_t, std::int32_t, int>, GpuKernel> kernels_;
   GpuMapMeshes map_meshes_;
   BakedLamps baked_;
   std::vector<Vec3> lights_;      // by group

@@ -8,7 +8,7 @@
 #include "bake/atlas/texel_map.h"
 #include "bake/import/import.h"
 #include "formats/cli/command.h"
-#include "formats/image/exr.h"
+#include "tests/support/exr.h"
 
 namespace oriel {
 namespace {

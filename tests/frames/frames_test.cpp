@@ -7,9 +7,9 @@
 #include "bake/import/import.h"
 #include "formats/core/file.h"
 #include "formats/image/display.h"
-#include "formats/image/exr.h"
 #include "formats/query/camera.h"
 #include "tests/frames/frames.h"
+#include "tests/support/exr.h"
 
 namespace oriel {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "bake/import/import.h"
 #include "formats/core/file.h"
-#include "formats/image/exr.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/writer.h"
 #include "scenes/kit/glb_writer.h"
 #include "scenes/kit/shapes.h"
 #include "tests/frames/frames.h"
+#include "tests/support/exr.h"
 
 namespace oriel {
 namespace {

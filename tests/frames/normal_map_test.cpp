@@ -4,10 +4,10 @@
 
 #include "bake/radiosity/radiosity.h"
 #include "bake/run/assemble.h"
-#include "formats/image/exr.h"
 #include "formats/pack/writer.h"
 #include "tests/bake/support/scene_parts.h"
 #include "tests/frames/frames.h"
+#include "tests/support/exr.h"
 
 namespace oriel {
 namespace {

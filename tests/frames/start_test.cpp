@@ -4,12 +4,12 @@
 
 #include "formats/core/color.h"
 #include "formats/core/file.h"
-#include "formats/image/exr.h"
 #include "formats/pack/reader.h"
 #include "scenes/generators.h"
 #include "scenes/kit/glb_writer.h"
 #include "scenes/kit/shapes.h"
 #include "tests/frames/frames.h"
+#include "tests/support/exr.h"
 
 namespace oriel {
 namespace {

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "formats/core/file.h"
-#include "formats/image/exr.h"
 #include "formats/image/png.h"
+#include "tests/support/exr.h"
 #include "tests/support/play_program.h"
 
 namespace oriel {

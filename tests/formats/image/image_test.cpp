@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "formats/core/file.h"
-#include "formats/image/exr.h"
 #include "formats/image/png.h"
+#include "tests/support/exr.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oriel {

@@ -8,12 +8,12 @@
 
 #include "formats/core/file.h"
 #include "formats/core/json.h"
-#include "formats/image/exr.h"
 #include "formats/image/png.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/writer.h"
 #include "tests/formats/pack/forge.h"
+#include "tests/support/exr.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_pack.h"
 

@@ -1,8 +1,8 @@
 // Two packs in one picture, and in one window.
 #include "formats/core/color.h"
 #include "formats/core/file.h"
-#include "formats/image/exr.h"
 #include "formats/image/png.h"
+#include "tests/support/exr.h"
 #include "tests/support/play_program.h"
 
 namespace oriel {
