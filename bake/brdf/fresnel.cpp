@@ -5,7 +5,7 @@
 namespace oriel {
 namespace {
 
-constexpr float kLeastHighlight = 0.03f / (0.25f * 0.25f);  // reflectance / α²
+constexpr float kWidest = 0.8f, kLeastHighlight = 0.03f / (0.25f * 0.25f);  // α; reflectance / α²
 
 // (F(θ) - F(0)) / (1 - F(0)); F(0) = 1 leaves no room to rise.
 double rise(double f, double f0) {
@@ -76,7 +76,7 @@ float reflectance_at_60_deg(const Vec3& f0, float f90, const FresnelCurve& curve
 }
 
 bool shows_highlights(float reflectance, float alpha) {
-  return reflectance >= kLeastHighlight * alpha * alpha;
+  return alpha < kWidest && reflectance >= kLeastHighlight * alpha * alpha;
 }
 
 }  // namespace oriel

@@ -46,8 +46,8 @@ DVec3 metal_f0(Metal metal);
 float reflectance_at_60_deg(const Vec3& f0, float f90, const FresnelCurve& curve);
 
 // Whether a lobe of that reflectance and width shows where lamps are. What it shows of a small lamp goes as
-// reflectance / α²: it does where that is no less than in a lobe of 3 % and roughness 0.5. Metals do at any roughness,
-// plastics up to about 0.6.
+// reflectance / α²: it does where that is no less than in a lobe of 3 % and roughness 0.5, as plastics' up to 0.65.
+// Metals' do up to 0.9. Wider ones are nearer to even light than to what taps of a map make of them.
 bool shows_highlights(float reflectance, float alpha);
 
 }  // namespace oriel

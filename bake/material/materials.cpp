@@ -143,7 +143,7 @@ struct Needs {
   bool f0_varies = false;
 };
 
-Needs find_needs(const Scene& scene, MaterialMaps& maps) {
+Needs find_needs(const Scene& scene, MaterialMaps& maps, const MaterialOptions& options) {
   Needs needs;
   maps.kernel.assign(scene.materials.size(), -1);
   maps.fresnel_map.assign(scene.materials.size(), -1);
@@ -155,7 +155,8 @@ Needs find_needs(const Scene& scene, MaterialMaps& maps) {
     if (is_new) needs.fresnel_owner.push_back(m);
     maps.fresnel_map[m] = fresnel->second;
     needs.f0_varies |= is_textured(scene, scene.materials[m]);
-    if (!shows_highlights(reflectance_at_60_deg(s.f0, s.f90, s.curve), s.alpha)) continue;
+    const bool highlights = shows_highlights(reflectance_at_60_deg(s.f0, s.f90, s.curve), s.alpha);
+    if (s.roughness > options.max_roughness && !highlights) continue;
     maps.kernel[m] = static_cast<std::int32_t>(needs.alphas.size());
     needs.alphas.push_back(s.alpha);
   }
@@ -194,7 +195,7 @@ std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
 Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& options, Context& context) {
   MaterialMaps maps;
   maps.summaries = summarize_materials(scene);
-  const Needs needs = find_needs(scene, maps);
+  const Needs needs = find_needs(scene, maps, options);
   const Groups widths = group_widths(needs.alphas, options.error);
   maps.kernels.resize(widths.values.size());
   std::vector<FresnelMap> fresnel_maps(needs.fresnel_owner.size());

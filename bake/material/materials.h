@@ -35,6 +35,7 @@ std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 struct MaterialOptions {
   KernelOptions kernel;
   SliceOptions slices;
+  float max_roughness = 0.5f;  // rougher lobes have a kernel where they show highlights
   FresnelMapOptions fresnel;
   double error = 0.02;  // by which a map may differ from a material's own for the material to share it, see share.h
 };

@@ -33,11 +33,11 @@ LightCensus count_lights(const Scene& scene, const LightSet& lights) {
   return c;
 }
 
-LobeKind lobe_of(const SceneMaterial& m, const MaterialSummary& s) {
+LobeKind lobe_of(const SceneMaterial& m, const MaterialSummary& s, std::int32_t kernel) {
   if (m.unlit) return LobeKind::kUnlit;
   if (max_component(s.f0) <= 0 && s.f90 <= 0 && s.coat <= 0) return LobeKind::kMatte;
   if (s.alpha < kMirrorAlpha) return LobeKind::kMirror;
-  return shows_highlights(reflectance_at_60_deg(s.f0, s.f90, s.curve), s.alpha) ? LobeKind::kGlossy : LobeKind::kBroad;
+  return kernel >= 0 ? LobeKind::kGlossy : LobeKind::kBroad;
 }
 
 // By triangle: whether a planar or curved reflector has it.
@@ -58,7 +58,7 @@ std::vector<MaterialCensus> list_materials(const CensusInput& in) {
     const MaterialSummary& summary = in.materials.summaries[m];
     MaterialCensus& c = all[m];
     c.name = material.name;
-    c.lobe = lobe_of(material, summary);
+    c.lobe = lobe_of(material, summary, in.materials.kernel[m]);
     c.alpha = summary.alpha;
     c.reflectance =
         c.lobe == LobeKind::kUnlit || c.lobe == LobeKind::kMatte ? 0 : reflectance_at_60_deg(in.reflections.lobes[m]);

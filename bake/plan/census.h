@@ -22,7 +22,7 @@ enum class LobeKind {
   kUnlit,   // shown as it is
   kMatte,   // no specular lobe
   kMirror,  // α < 1e-5
-  kGlossy,  // narrow or bright enough to show an image (shows_highlights)
+  kGlossy,  // narrow or bright enough to show highlights: has a kernel
   kBroad,   // wider: what it reflects is shown as if it were diffuse
 };
 

@@ -13,7 +13,8 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kOpenRays = 128;  // per side of a patch
-constexpr float kMaxFlatness = 1e-3f;     // of a reflector's own size
+constexpr float kMetal = 0.5f;            // reflectance at 60°: less is plastic, in planes without highlights
+constexpr double kMostAround = 4;         // m²: what a surround map is for is seen from one place
 
 // Triangles that may reflect, by node name and material: parts of one node that were split by the exporter join again.
 using Groups = std::map<std::pair<std::uint32_t, std::string>, std::vector<std::uint32_t>>;
@@ -25,7 +26,7 @@ std::string excluded_because(const SceneMaterial& m, const ReflectorMaterial& r,
   if (!(reflectance >= options.min_reflectance))
     return fmt::format("it reflects {:.2g} % at 60°, less than {:.2g} %", 100 * reflectance,
                        100 * options.min_reflectance);
-  if (!shows_highlights(reflectance, r.roughness * r.roughness))
+  if (r.roughness > options.max_roughness && !shows_highlights(reflectance, r.roughness * r.roughness))
     return fmt::format("with a roughness of {:.3g} they are a glow without an outline", r.roughness);
   if (max_component(m.emission) > 0) return "it emits light, which outshines them";
   return {};
@@ -153,20 +154,18 @@ FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMat
   const double radius = scene.radius(), small = small_scene(scene.radius());
   const PatchOptions patch_options{.max_angle_rad = options.max_angle_deg * kPiD / 180,
                                    .max_distance_m = options.flatness * radius,
-                                   .relative_distance = kMaxFlatness,
+                                   .relative_distance = 1e-3,  // of a reflector's own size
                                    .min_distance_m = 1e-6 * radius,
                                    .min_area_m2 = small * small * options.min_area_m2};
   for (const auto& [key, triangles] : groups) {
     const auto& [material, name] = key;
     const ReflectorMaterial& lobe = materials[material];
-    const bool wide = lobe.roughness > options.max_roughness;
+    const bool wide = lobe.roughness > options.max_roughness, metal = reflectance_at_60_deg(lobe) >= kMetal;
     double left_out_m2 = 0;
     std::size_t left_out = 0;
     std::vector<std::uint32_t> planar;
-    const bool by_surround_map = wide && shows_highlights(reflectance_at_60_deg(lobe), 1);  // planar or not: metals
-    const auto patches =
-        by_surround_map ? std::vector<PlanarPatch>() : find_planar_patches(scene, triangles, patch_options);
-    for (const PlanarPatch& patch : patches) {
+    for (const PlanarPatch& patch : find_planar_patches(scene, triangles, patch_options)) {
+      if (wide && metal && patch.area_m2 < kMostAround) continue;  // a surround map shows it
       planar.insert(planar.end(), patch.triangles.begin(), patch.triangles.end());
       if (!wide && add_sides(accel, patch, lobe, options, out.reflectors)) continue;
       left_out_m2 += patch.area_m2;
@@ -176,6 +175,7 @@ FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMat
       out.omitted.push_back(fmt::format("'{}' ({} planar pieces, {:.3g} m²): {}", name, left_out, left_out_m2,
                                         wide ? "roughness above 0.5 shows no image in a plane"
                                              : "sees nothing further away than a tenth of its size"));
+    if (wide && !metal && left_out > 0) continue;  // round edges would show highlights, and flats none
     std::sort(planar.begin(), planar.end());
     std::set_difference(triangles.begin(), triangles.end(), planar.begin(), planar.end(),
                         std::back_inserter(out.unplanar));

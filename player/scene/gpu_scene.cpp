@@ -367,9 +367,9 @@ const GpuKernel& GpuScene::kernel(std::uint32_t material, bool coarse) {
 
 const GpuKernel& GpuScene::curved_kernel(std::uint32_t material, bool coarse) {
   const Material& m = pack_.materials[material];
-  const bool bright =
-      m.fresnel_map >= 0 && max_component(lookup_by_cosine(pack_.fresnel_maps[m.fresnel_map].table, 0.5f)) >= 0.5f;
-  return kernel(m.kernel, m.fresnel_map, coarse ? kCoarseTaps : bright ? kKernelTaps : kFaintTaps);
+  const Vec3 r = m.fresnel_map < 0 ? Vec3(0) : lookup_by_cosine(pack_.fresnel_maps[m.fresnel_map].table, 0.5f);
+  const bool few = m.kernel >= 0 && pack_.kernels[m.kernel].alpha >= 0.03f && max_component(r) < 0.5f;
+  return kernel(m.kernel, m.fresnel_map, coarse ? kCoarseTaps : few ? kFaintTaps : kKernelTaps);
 }
 
 const GpuKernel& GpuScene::kernel(std::int32_t index, std::int32_t fresnel_map, int taps_a_row) {

@@ -185,7 +185,7 @@ class GpuScene {
   std::uint64_t map_bytes() const { return images_->map_bytes() + map_meshes_.bytes(); }
   // A material's, made on first use and kept. coarse: of few taps.
   const GpuKernel& kernel(std::uint32_t material, bool coarse);
-  // For curved reflectors, each of whose taps finds its own distance: half of the taps where little is reflected.
+  // For curved reflectors: half of the taps of wide lobes where R at 60° is below a half.
   const GpuKernel& curved_kernel(std::uint32_t material, bool coarse);
   const GpuKernel& mirror_kernel() { return kernel(-1, -1, 1); }
 

@@ -10,7 +10,6 @@ namespace oriel {
 namespace {
 
 constexpr int kCentredRows = 9;
-constexpr double kOverlap = 1.6;  // squares side by side, interpolated, show as creases on rough balls
 
 // Position in [0, n] where the running sum of weights reaches u * total; linear inside a cell.
 double invert(std::span<const double> weights, double u) {
@@ -50,7 +49,7 @@ std::vector<KernelTap> taps_of(const std::vector<float>& weights, std::size_t n,
     const double sharing = std::max(static_cast<double>(weights[y * n + x]), 1e-12) * count;
     KernelTap tap;
     tap.at = place(DVec2(u, v) * side);
-    tap.width = static_cast<float>(std::min(kOverlap * std::sqrt(cell.x * cell.y / sharing), std::sqrt(all.x * all.y)));
+    tap.width = static_cast<float>(std::sqrt(std::min(cell.x * cell.y / sharing, all.x * all.y)));
     taps.push_back(tap);
   }
   return taps;

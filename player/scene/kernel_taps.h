@@ -10,7 +10,7 @@ namespace oriel {
 
 struct KernelTap {
   Vec2 at{0};        // mirror coordinates of its direction, as in KernelSlice
-  float width = 0;   // side of the square of them whose light it takes: wider than what it stands for, they overlap
+  float width = 0;   // side of the square of them that this tap stands for
   float weight = 1;  // its light counts so much; 1 on average over those above the surface
 };
 

@@ -27,6 +27,7 @@ vec3 light_along(vec3 origin, vec3 direction, float inverse_distance, float spre
   return pyramid_light(u_light, u_size, from_centre, log2(max(texels, 1.0)));
 }
 
+const float kOverlap = 1.6;  // of taps: squares side by side, interpolated, show as creases on rough balls
 const int kTapSteps = 2;
 const float kTapSphere = 1.5;  // of the surface's distance from the centre
 
@@ -60,7 +61,7 @@ vec3 lobe_light(vec3 origin, vec3 normal, vec3 mirror, float cos_theta, float in
   for (int i = 0; i < u_tap_count; ++i) {
     vec4 tap = kernel_tap(u_taps, i, row);
     vec3 direction = lobe_direction(mirror, across, along, tap.xy);
-    float width = tap.z / (1.0 + 0.25 * dot(tap.xy, tap.xy));  // an angle
+    float width = kOverlap * max(tap.z, 1e-6) / (1.0 + 0.25 * dot(tap.xy, tap.xy));  // an angle
     float weight = tap.w * clamp(0.5 + dot(direction, normal) / width, 0.0, 1.0);  // of what the horizon leaves of it
     if (weight <= 0.0) continue;
     float inverse = u_wide ? tap_distance(origin, direction) : inverse_distance;

@@ -3,7 +3,6 @@
 import type { Fresnel, Kernel, Slice } from './sections';
 
 export interface Taps { count: number; rows: number; median: number; texels: Float32Array; means: number[]; }
-const kOverlap = 1.6;
 interface Tap { x: number; y: number; width: number; weight: number; }
 
 function invert(weights: ArrayLike<number>, u: number): number {
@@ -32,7 +31,7 @@ function tapsOf(weights: Float32Array, n: number, count: number, place: (x: numb
     const u = invert(weights.subarray(y * n, y * n + n), radicalInverse(i) + 0.5 / count), x = Math.min(Math.floor(u), n - 1);
     const a = place(x / n, y / n), b = place((x + 1) / n, (y + 1) / n), at = place(u / n, v / n);
     const sharing = Math.max(weights[y * n + x]!, 1e-12) * count;
-    taps.push({ x: at[0], y: at[1], width: Math.min(kOverlap * Math.sqrt(((b[0] - a[0]) * (b[1] - a[1])) / sharing), Math.sqrt(all)), weight: 1 });
+    taps.push({ x: at[0], y: at[1], width: Math.sqrt(Math.min(((b[0] - a[0]) * (b[1] - a[1])) / sharing, all)), weight: 1 });
   }
   return taps;
 }

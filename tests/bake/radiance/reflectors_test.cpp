@@ -112,7 +112,7 @@ TEST(Reflectors, RoughWeakAndEmissiveOnesAreLeftOutWithAReasonAndCurvedAndSmallO
   w.materials.push_back({.roughness = 0, .f0 = Vec3(0.001f), .f90 = 0.1f});
   w.materials.push_back(kMirror);
   w.materials.push_back({.roughness = 0.55f, .f0 = Vec3(0.04f), .f90 = 1});
-  w.materials.push_back({.roughness = 0.9f, .f0 = Vec3(0.9f), .f90 = 1});
+  w.materials.push_back({.roughness = 0.8f, .f0 = Vec3(0.9f), .f90 = 1});
   SceneMaterial rough, weak, lamp;
   rough.name = "rough";
   weak.name = "weak";
