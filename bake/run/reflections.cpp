@@ -45,10 +45,11 @@ void append(std::vector<Warning>& lines, const std::vector<Line>& more) {
 Status find_planar(const BakeOptions& options, const Accel& accel, Context& context, FoundReflections& all) {
   ReflectorOptions wide = options.reflectors;  // a large one that nobody sees must not push out a small one
   wide.max_reflectors = 4 * std::min(options.reflectors.max_reflectors, std::numeric_limits<std::uint32_t>::max() / 4);
-  FoundReflectors& found = all.found;
-  found = find_reflectors(accel, all.lobes, wide);
+  FoundReflectors& found = all.found = find_reflectors(accel, all.lobes, wide);
   ORIEL_TRY_VOID(keep_seen_reflectors(accel, all.eyes, options.reflectors.max_reflectors, context, found));
   append(all.omissions, found.omitted);
+  if (found.reflectors.empty())
+    all.omissions.emplace_back("radiance maps: no planar surface that is shiny and large enough is seen");
   return {};
 }
 

@@ -346,8 +346,7 @@ Result<std::vector<const GpuCurvedReflector*>> ReflectionRenderer::draw_curved(c
     const bool see_through = scene.is_transparent(reflector.material);
     if (!in_frame && see_through) continue;
     const float worth = target.share * target.reflectance * reflectance_of(scene.pack(), reflector.material);
-    const NdcRect screen = project_box(view.clip_from_pack, reflector.triangles.bounds);
-    if (target.blurs && shows_least(worth, screen)) continue;  // a mirror's image of a thing is as the thing
+    if (target.blurs && shows_least(worth, project_box(view.clip_from_pack, reflector.triangles.bounds))) continue;
     ORIEL_TRY(const bool there, scene.bring_surround_map(reflector.map));
     if (!there) continue;
     if (see_through) {
