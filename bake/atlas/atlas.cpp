@@ -26,7 +26,6 @@ Status measure_coverage(Context& context, Atlas& atlas) {
   std::vector<Count> counts(atlas.pages.size());
   ORIEL_TRY_VOID(parallel_for(context, "", atlas.pages.size(), [&](std::size_t p) {
     const AtlasPage& page = atlas.pages[p];
-    if (page.from_uv1) return;
     constexpr std::uint32_t kNobody = ~0u, kShared = ~0u - 1;
     std::vector<std::uint32_t> owner(std::size_t{page.width} * page.height, kNobody);
     for (const std::uint32_t t : triangles[p]) {
@@ -43,7 +42,6 @@ Status measure_coverage(Context& context, Atlas& atlas) {
   }));
   AtlasReport& report = atlas.report;
   for (std::size_t p = 0; p < atlas.pages.size(); ++p) {
-    if (atlas.pages[p].from_uv1) continue;
     report.covered_texels += counts[p].covered;
     report.overlapping_texels += counts[p].shared;
     report.page_texels += std::uint64_t{atlas.pages[p].width} * atlas.pages[p].height;
@@ -59,8 +57,6 @@ Status check_options(const AtlasOptions& o) {
   };
   if (!(o.texel_m > 0) || !std::isfinite(o.texel_m)) return usage("the texel size", o.texel_m, "metres, more than 0");
   if (o.resolution < 0 || o.resolution > kMaxSide) return usage("the resolution", o.resolution, "0 to 16384 texels");
-  if (o.source == AtlasOptions::Source::kUv1 && o.resolution == 0)
-    return usage("the resolution", 0, "the side of the page that TEXCOORD_1 covers, 1 to 16384 texels");
   if (o.max_page < 16 || o.max_page > kMaxSide) return usage("the largest page", o.max_page, "16 to 16384 texels");
   if (o.padding < 1 || o.padding > 64) return usage("the padding", o.padding, "1 to 64 texels");
   if (!(o.flat_angle_deg >= 0 && o.flat_angle_deg <= 10))
@@ -72,10 +68,11 @@ Status check_options(const AtlasOptions& o) {
   return {};
 }
 
-// Surfaces of a scene that get charts of their own.
+// Surfaces of a scene whose charts are packed: grown ones, and those of the artist's coordinates.
 struct ChartedSurfaces {
   const Scene& scene;
-  const std::vector<std::uint32_t>& surfaces;
+  std::vector<std::uint32_t> grown, own;
+  bool one_page = false;
 };
 
 // The charts of a surface for a congruent one.
@@ -84,15 +81,20 @@ ChartSet moved(ChartSet charts, const Surface& from, const Surface& to) {
   return charts;
 }
 
-Status place_automatic(const ChartedSurfaces& charted, const AtlasOptions& options, const TexelDemand& demand,
-                       Context& context, Atlas& atlas) {
-  const Scene& scene = charted.scene;
-  const std::vector<std::uint32_t>& surfaces = charted.surfaces;
-  const bool one_page = options.resolution > 0 && options.source == AtlasOptions::Source::kAuto;
+double area_of(const Scene& scene, const std::vector<std::uint32_t>& surfaces) {
   double area = 0;
   for (const std::uint32_t s : surfaces)
     for (std::uint32_t t = 0; t < scene.surfaces[s].triangle_count; ++t)
       area += triangle_area(scene, scene.surfaces[s].first_triangle + t);
+  return area;
+}
+
+Status place_charts(const ChartedSurfaces& charted, const AtlasOptions& options, const TexelDemand& demand,
+                    Context& context, Atlas& atlas) {
+  const Scene& scene = charted.scene;
+  const std::vector<std::uint32_t>& surfaces = charted.grown;
+  const bool one_page = charted.one_page;
+  const double area = area_of(scene, surfaces) + area_of(scene, charted.own);
   double texel_m = options.texel_m;
   // Charts depend on the texel a little (which flat regions are worth one); three quarters full is a fair guess.
   if (one_page && area > 0) texel_m = std::sqrt(area / 0.75) / options.resolution;
@@ -108,10 +110,16 @@ Status place_automatic(const ChartedSurfaces& charted, const AtlasOptions& optio
   std::vector<ChartSet> sets(surfaces.size());
   const std::vector<std::uint32_t> first = first_congruent(scene, surfaces, chart_options.demand);
   ORIEL_TRY_VOID(parallel_for(context, "atlas", surfaces.size(), [&](std::size_t i) {
-    if (first[i] == i) sets[i] = grow_charts(scene, scene.surfaces[surfaces[i]], chart_options, context);
+    if (first[i] != i) return;
+    const Surface& surface = scene.surfaces[surfaces[i]];
+    ChartOptions own = chart_options;
+    if (surface.texel_m > 0) own.texel_m = static_cast<double>(surface.texel_m);
+    sets[i] = grow_charts(scene, surface, own, context);
+    sets[i].texel_m = static_cast<double>(surface.texel_m);
   }));
   for (std::size_t i = 0; i < sets.size(); ++i)
     if (first[i] != i) sets[i] = moved(sets[first[i]], scene.surfaces[surfaces[first[i]]], scene.surfaces[surfaces[i]]);
+  for (const std::uint32_t s : charted.own) sets.push_back(own_charts(scene, scene.surfaces[s]));
   if (context.stopped()) return fail(ErrorCode::kStopped, "atlas", "stopped");
   atlas.report.time_limit_struck = deadline.struck();
   if (deadline.struck())
@@ -148,22 +156,29 @@ Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Conte
   atlas.page.assign(scene.triangles.size(), -1);
   atlas.chart.assign(scene.triangles.size(), ~0u);
   atlas.uv.assign(scene.triangles.size(), {Vec2(0), Vec2(0), Vec2(0)});
-  std::vector<std::uint32_t> artist, automatic;
+  ChartedSurfaces charted{scene, {}, {}, options.resolution > 0};
   for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
     const Surface& surface = scene.surfaces[s];
     const SceneMaterial& material = scene.materials[surface.material];
     if (surface.triangle_count == 0 || material.unlit || (!demand.empty() && !takes_light(material))) continue;
-    const bool own = options.source == AtlasOptions::Source::kUv1 && surface.has_uv1;
-    (own ? artist : automatic).push_back(s);
+    charted.grown.push_back(s);
   }
   if (options.source == AtlasOptions::Source::kUv1) {
-    if (artist.empty())
-      return invalid("atlas", "no mesh has TEXCOORD_1; expected lightmap coordinates on at least one that takes light");
-    const auto side = static_cast<std::uint32_t>(options.resolution);
-    atlas.pages.push_back({side, side, true});
-    ORIEL_TRY_VOID(place_uv1(scene, artist, context, atlas));
+    Uv1Check check = check_uv1(scene, charted.grown, options, context);
+    if (check.own.empty())
+      return invalid("atlas", "no mesh has TEXCOORD_1 of use; expected lightmap coordinates on one that takes light");
+    charted.grown = std::move(check.faulty);
+    if (check.one_page) {
+      const auto side = static_cast<std::uint32_t>(options.resolution);
+      atlas.pages.push_back({side, side, true});
+      place_uv1(scene, check.own, atlas);
+      charted.one_page = false;
+    } else {
+      charted.own = std::move(check.own);
+    }
   }
-  if (!automatic.empty()) ORIEL_TRY_VOID(place_automatic({scene, automatic}, options, demand, context, atlas));
+  if (!charted.grown.empty() || !charted.own.empty())
+    ORIEL_TRY_VOID(place_charts(charted, options, demand, context, atlas));
   ORIEL_TRY_VOID(measure_coverage(context, atlas));
   return atlas;
 }

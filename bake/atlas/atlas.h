@@ -15,8 +15,8 @@ struct AtlasOptions {
   enum class Source { kAuto, kUv1 };
   Source source = Source::kAuto;
   float texel_m = 0.1f;            // automatic charts: metres a texel; with a TexelDemand the finest
-  int resolution = 0;              // > 0: automatic charts choose the texel size that fills one page of this side; with
-                                   // kUv1 the side of page 0 (required there)
+  int resolution = 0;              // > 0: charts get the texel size that fills one page of this side; with kUv1 it is
+                                   // that of page 0, where coordinates can be taken as they are
   int max_page = 2048;             // largest side of a page, texels
   int padding = 2;                 // texels between charts, at least
   float flat_angle_deg = 1.0f;     // faces within it of a chart's plane are projected exactly
@@ -35,9 +35,9 @@ struct AtlasPage {
   bool from_uv1 = false;  // the artist's coordinates
 };
 
-// How well the automatic charts show their surfaces, and how well they fill their pages. Stretch and distortion are 1
-// for an isometry at the mean density of texels (StretchSum in stretch.h); charts drawn coarser count as they
-// are.
+// How well packed charts (where there are none: the artist's page) show their surfaces, and how full pages are. Stretch
+// and distortion are 1 for an isometry at the mean density of texels (StretchSum in stretch.h); charts drawn coarser
+// count as they are.
 struct AtlasReport {
   double l2_stretch = 1, linf_stretch = 1;
   double angle_distortion = 1, area_distortion = 1;
@@ -54,7 +54,7 @@ struct Atlas {
   std::vector<std::array<Vec2, 3>> uv;  // by triangle and corner, [0,1] over its page
   std::vector<std::uint32_t> chart;     // by triangle; ~0u: none
   std::uint32_t chart_count = 0;
-  double covered_share = 0;  // covered texels over all texels, automatic pages
+  double covered_share = 0;  // covered texels over all texels
   float texel_m = 0;         // the (finest) texel size used by automatic charts, metres
   AtlasReport report;
 };
@@ -63,9 +63,10 @@ struct Atlas {
 // is black but for the gloss of all plastics, the dome that stands for a sky say, counts as one that does not.
 bool takes_light(const SceneMaterial& material);
 
-// Errors: kInvalid when artist coordinates overlap (names both meshes), leave [0,1], have no area, or when kUv1 is
-// asked for and no mesh has TEXCOORD_1; kRuntime when it would need more than 4096 pages or more memory than
-// the limit (says the texel size that fits).
+// With kUv1 and a resolution artist coordinates are page 0 as they are, where all lie in [0, 1] and no two overlap.
+// Else charts of each surface are packed (own_charts). Where coordinates are faulty charts are made (check_uv1).
+// Errors: kInvalid when kUv1 is asked for and no surface has coordinates of use; kRuntime when it would need more than
+// 4096 pages or more memory than the limit (says the texel size that fits).
 Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Context& context,
                           const TexelDemand& demand = {});
 

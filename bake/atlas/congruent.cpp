@@ -50,12 +50,13 @@ bool in_one_ring(const TexelDemand* demand, const Surface& surface) {
 std::vector<std::uint32_t> first_congruent(const Scene& scene, std::span<const std::uint32_t> surfaces,
                                            const TexelDemand* demand) {
   std::vector<std::uint32_t> first;
-  std::map<std::tuple<std::string, std::uint32_t, std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> shapes;
+  using Shape = std::tuple<std::string, std::uint32_t, std::uint32_t, std::uint32_t, float>;
+  std::map<Shape, std::vector<std::uint32_t>> shapes;
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
     const Surface& s = scene.surfaces[surfaces[i]];
     first.push_back(i);
     if (!in_one_ring(demand, s)) continue;
-    std::vector<std::uint32_t>& known = shapes[{s.mesh_name, s.material, s.triangle_count, s.vertex_count}];
+    std::vector<std::uint32_t>& known = shapes[{s.mesh_name, s.material, s.triangle_count, s.vertex_count, s.texel_m}];
     const auto found =
         std::ranges::find_if(known, [&](std::uint32_t k) { return congruent(scene, scene.surfaces[surfaces[k]], s); });
     if (found != known.end())

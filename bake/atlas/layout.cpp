@@ -115,9 +115,12 @@ class Layout {
  public:
   Layout(const Scene& scene, std::span<const ChartSet> sets, const LayoutOptions& options, Context& context)
       : options_(options), context_(context), inset_(options.side * 0x1p-24) {
-    for (const ChartSet& set : sets)
+    for (const ChartSet& set : sets) {
+      const std::size_t first = charts_.size();
       for (const Chart& chart : set.charts)
         charts_.push_back({&set, &chart, turn_of(scene, set, chart), own_texel(set, chart)});
+      if (set.one_texel) share_turns(std::span(charts_).subspan(first));
+    }
     if (options.demand != nullptr) {
       std::vector<ChartTexel*> own = own_texels();
       even_out(own);
@@ -143,6 +146,19 @@ class Layout {
     return sum;
   }
 
+  // Charts of one texel get that which makes as many texels as if each were drawn finer for its own turn.
+  static void share_turns(std::span<Entry> charts) {
+    double texels = 0, area = 0;
+    for (Entry& e : charts) {
+      double more = e.own.area_m2;
+      for (int k = 0; k < 2; ++k)
+        if (e.turn[k] > 0) more *= std::clamp(e.turn[k] / kTurn * e.own.texel_m / e.chart->size[k], 1.0, kFinest);
+      texels += more, area += e.own.area_m2;
+      e.turn = DVec2(0);
+    }
+    for (Entry& e : charts) e.own.texel_m /= area > 0 ? std::sqrt(texels / area) : 1;
+  }
+
   std::vector<ChartTexel*> own_texels() {
     std::vector<ChartTexel*> own;
     for (Entry& e : charts_) own.push_back(&e.own);
@@ -152,13 +168,21 @@ class Layout {
   ChartTexel own_texel(const ChartSet& set, const Chart& chart) const {
     const double area = area_of(set, chart);
     if (options_.demand == nullptr) return {.texel_m = options_.texel_m, .area_m2 = area};
-    return texel_for(*options_.demand, std::span(set.triangles).subspan(chart.first, chart.count), area,
-                     options_.texel_m);
+    const std::span triangles(set.triangles);
+    if (!set.one_texel)
+      return texel_for(*options_.demand, triangles.subspan(chart.first, chart.count), area, options_.texel_m);
+    ChartTexel share = texel_for(*options_.demand, triangles, area, options_.texel_m);
+    if (set.area_m2 > 0) share.pixels *= area / set.area_m2;
+    return share;
   }
 
-  // The texel of a chart: the asked one, or as much coarser as the page needs.
+  // The texel of a chart: its own, or as much coarser as the page needs.
   double chart_texel(const Entry& e, double texel_m) const {
-    const double own = options_.demand != nullptr ? std::max(texel_m, e.own.texel_m) : texel_m;
+    const double own = options_.one_page            ? texel_m
+                       : e.set->texel_m > 0         ? e.set->texel_m
+                       : e.set->one_texel           ? e.own.texel_m
+                       : options_.demand != nullptr ? std::max(texel_m, e.own.texel_m)
+                                                    : texel_m;
     return std::max(own, e.chart->size.x / (options_.side - 2 * inset_));  // x is the longer side
   }
   Frame plain_frame(const Entry& e, double texel_m) const {
@@ -372,13 +396,17 @@ void Layout::measure(const Scene& scene, AtlasReport& report) const {
   }
   for (const Entry& e : charts_)
     report.unseen_m2 += options_.demand != nullptr && e.own.pixels == 0 ? e.own.area_m2 : 0;
+  report_stretch(sum, report);
+}
+
+}  // namespace
+
+void report_stretch(const StretchSum& sum, AtlasReport& report) {
   report.l2_stretch = sum.l2();
   report.linf_stretch = sum.linf();
   report.angle_distortion = sum.angle();
   report.area_distortion = sum.area();
 }
-
-}  // namespace
 
 Status lay_out(const Scene& scene, std::span<const ChartSet> sets, const LayoutOptions& options, Context& context,
                Atlas& atlas) {

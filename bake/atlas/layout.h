@@ -28,4 +28,6 @@ inline constexpr std::uint64_t kBakeTexelBytes = 800;
 Status lay_out(const Scene& scene, std::span<const ChartSet> sets, const LayoutOptions& options, Context& context,
                Atlas& atlas);
 
+void report_stretch(const StretchSum& sum, AtlasReport& report);
+
 }  // namespace oriel

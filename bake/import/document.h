@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bake/import/json.h"
+#include "bake/import/object_keys.h"
 #include "bake/jobs/context.h"
 #include "bake/scene/scene.h"
 
@@ -98,9 +99,7 @@ struct NodeDesc {
   std::string name;
   int mesh = -1, camera = -1, light = -1, skin = -1, parent = -1;
   std::vector<double> weights;    // of its mesh's morph targets; empty: the mesh's
-  Metal metal = Metal::kNone;     // extras.oriel_metal: of all that its mesh shows
-  bool mover = false;             // extras.oriel.mover
-  std::string light_group;        // extras.oriel.light_group
+  ObjectKeys keys;                // extras.oriel
   bool hidden = false;            // KHR_node_visibility: and all below it
   float angular_radius_rad = -1;  // for its directional light; < 0: the light's own
   std::vector<std::uint32_t> children;
@@ -168,8 +167,9 @@ struct Document {
 // Error kInvalid for whatever breaks glTF 2.0, and for a required extension that Oriel does not know.
 Result<Document> parse_document(JsonDocument& json);
 
-// extras.oriel_metal of a material or a node; a name that is unknown is an error of the document.
-Metal parse_metal(const JsonAt& value);
+// extras.oriel.KEY, oriel_KEY and oriel.KEY of a material or a node. What is no key of ours, or no
+// value of it, is said and ignored.
+ObjectKeys parse_object_keys(const JsonAt& value);
 
 // Its parts, in the order in which they need each other.
 void parse_materials(const JsonAt& root, Document& document);

@@ -7,13 +7,14 @@
 #include "bake/import/images.h"
 #include "bake/import/lighting.h"
 #include "bake/import/movers.h"
+#include "bake/import/node_names.h"
 #include "bake/import/opacity.h"
 #include "bake/import/repair.h"
 #include "bake/import/seams.h"
 #include "bake/import/solids.h"
 #include "bake/import/viewpoints.h"
-#include "bake/import/warning_group.h"
 #include "bake/jobs/parallel.h"
+#include "bake/jobs/warning_group.h"
 #include "bake/scene/edges.h"
 #include "convert/import_process.h"
 #include "formats/core/file.h"
@@ -257,10 +258,11 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   gltf::AccessorReader accessors(document, buffers, budget);
   ORIEL_TRY(const std::vector<gltf::LoadedMesh> meshes, gltf::load_meshes(document, buffers, accessors, context));
   ORIEL_TRY(std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
+  ORIEL_TRY_VOID(gltf::hand_down_keys(options.objects, document));
   if (options.unit_m != 1) roots = {scale_document(options.unit_m, roots, document)};
   ORIEL_TRY(PosedNodes nodes, pose_nodes(document, roots));
   out.scene.materials = document.materials;
-  ORIEL_TRY(nodes.movers, find_movers(nodes, options.movers, context));
+  nodes.movers = find_movers(nodes, context);
   ORIEL_TRY_VOID(place_meshes(nodes, meshes, accessors, options.most_triangles, {out.scene, context}));
   join_seams(out.scene);
   if (options.double_sided)

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "bake/import/object_keys.h"
 #include "bake/jobs/context.h"
 #include "bake/scene/daylight.h"
 #include "formats/core/hash.h"
@@ -28,7 +29,7 @@ struct ImportOptions {
   float sky_rotation_deg = 0;          // counter-clockwise seen from above
   std::optional<float> sun_angle_deg;  // angular diameter of every directional light, 0 to 180
   DayOptions day;                      // instead of a sky
-  std::vector<std::string> movers;     // names of nodes that move, beside those that the file marks or animates
+  std::vector<ObjectRule> objects;     // over what the file says of its nodes
   std::vector<MoverMove> moves;        // where movers and lamps are instead (move_nodes)
   double unit_m = 1;                   // metres that one unit of the file is. Light stays what it is on surfaces:
                                        // point and spot lights shine with the square of it

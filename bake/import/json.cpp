@@ -100,10 +100,10 @@ JsonAt JsonAt::extension(const char* name) const {
   return (*this)["extensions"][name];
 }
 
-JsonAt JsonAt::extra(const char* name) const {
+JsonAt JsonAt::extras() const {
   const JsonAt extras = (*this)["extras"];
   if (extras.present() && !extras.value_->is_object()) return JsonAt(document_, nullptr, extras.path_);
-  return extras[name];
+  return extras;
 }
 
 std::vector<std::string> JsonAt::keys() const {
@@ -176,6 +176,10 @@ std::string JsonAt::text(std::string fallback) const {
   if (value_->is_string()) return value_->get<std::string>();
   expected("a string");
   return fallback;
+}
+
+std::string JsonAt::scalar_text() const {
+  return value_->is_string() ? name() : shown(*value_);
 }
 
 std::string JsonAt::name() const {

@@ -62,8 +62,8 @@ class JsonAt {
   JsonAt need(const char* key) const;
   // extensions[name], absent where either is.
   JsonAt extension(const char* name) const;
-  // extras[name], absent where either is, and where extras are no object: they are anybody's.
-  JsonAt extra(const char* name) const;
+  // extras, absent where they are no object: they are anybody's.
+  JsonAt extras() const;
   std::vector<std::string> keys() const;
 
   // Elements of an array; 0 where absent.
@@ -77,6 +77,8 @@ class JsonAt {
   int index(std::size_t count) const;
   bool boolean(bool fallback) const;
   std::string text(std::string fallback = {}) const;
+  // A boolean, number or string as text, in one line; of other values what they are.
+  std::string scalar_text() const;
   // A text fit to be printed in one line: control characters become question marks.
   std::string name() const;
   // Exactly values.size() numbers; untouched where absent.

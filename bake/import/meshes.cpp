@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bake/import/draco.h"
-#include "bake/import/warning_group.h"
+#include "bake/jobs/warning_group.h"
 #include "formats/core/numbering.h"
 
 namespace oriel::gltf {

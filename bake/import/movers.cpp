@@ -18,18 +18,11 @@ std::string mover_name(const Document& document, std::uint32_t node) {
   return name.empty() ? fmt::format("node {}", node) : name;
 }
 
-std::vector<std::string> node_names(const Document& document, std::span<const NodePose> poses) {
-  std::vector<std::string> names;
-  for (const NodePose& pose : poses) names.push_back(document.nodes[pose.node].name);
-  return names;
-}
-
 // Why a node is a mover.
 constexpr char kMoves = 1, kAsked = 2;
 
 // By node: 0 no mover.
-Result<std::vector<char>> mark(const Document& document, std::span<const NodePose> poses,
-                               std::span<const std::string> names) {
+std::vector<char> mark(const Document& document) {
   std::vector<char> marks(document.nodes.size());
   for (const gltf::AnimationDesc& animation : document.animations)
     for (const gltf::AnimationDesc::Channel& channel : animation.channels)
@@ -37,18 +30,7 @@ Result<std::vector<char>> mark(const Document& document, std::span<const NodePos
         if (const auto node = static_cast<std::size_t>(channel.node); document.nodes[node].camera < 0)
           marks[node] = kMoves;
   for (std::size_t i = 0; i < marks.size(); ++i)
-    if (document.nodes[i].mover) marks[i] |= kAsked;
-  for (const std::string& name : names) {
-    bool found = false;
-    for (const NodePose& pose : poses) {
-      if (document.nodes[pose.node].name != name) continue;
-      marks[pose.node] |= kAsked;
-      found = true;
-    }
-    if (!found)
-      return fail(ErrorCode::kUsage, "mover", "found the node \"{}\", expected one of the scene's: {}", name,
-                  names_like(name, node_names(document, poses)));
-  }
+    if (document.nodes[i].keys.mover.value_or(false)) marks[i] |= kAsked;
   return marks;
 }
 
@@ -273,9 +255,9 @@ std::vector<std::string> movable_names(const Scene& scene) {
 
 }  // namespace
 
-Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::string> names, Context& context) {
+MoverNodes find_movers(const PosedNodes& posed, Context& context) {
   const auto& [document, poses, none, numbers] = posed;
-  ORIEL_TRY(const std::vector<char> marks, mark(document, poses, names));
+  const std::vector<char> marks = mark(document);
   MoverNodes movers;
   movers.of_node.assign(document.nodes.size(), -1);
   std::vector<std::int32_t> nearest(document.nodes.size(), -1);  // by node: the marked node that it goes with
@@ -306,7 +288,6 @@ Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::str
 
 Status place_movers(const PosedNodes& nodes, std::span<const Animation> animations, Scene& scene, Context& context) {
   const auto& [document, poses, movers, numbers] = nodes;
-  const gltf::NodeNames names(document);
   scene.movers.resize(movers.nodes.size());
   std::vector<std::int32_t> carried(scene.lights.size(), -1);
   for (const NodePose& pose : poses) {
@@ -320,7 +301,7 @@ Status place_movers(const PosedNodes& nodes, std::span<const Animation> animatio
     }
     if (document.nodes[pose.node].light < 0) continue;
     const Vec3 position(DVec3(pose.world_from_node[3]) - scene.origin);
-    const std::size_t light = light_of_node(scene, names.path(pose.node), position, carried);
+    const std::size_t light = light_of_node(scene, gltf::path_of(document, pose.node), position, carried);
     if (!out.keys.empty() && light < carried.size())
       carried[light] = mover;
     else

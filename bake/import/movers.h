@@ -7,11 +7,10 @@
 
 namespace oriel {
 
-// A mover is a node with extras oriel.mover true, one named in `names`, or one that an animation translates or turns
-// and that is no camera's. It takes what is below it along, except other movers. Nodes that show no mesh are none (but
-// animated ones that carry a light), with a warning where they were asked for. Error kUsage for a name that no node
-// has; it lists those most alike.
-Result<MoverNodes> find_movers(const PosedNodes& nodes, std::span<const std::string> names, Context& context);
+// A mover is a node with the key mover, or one that an animation translates or turns and that is no camera's. It takes
+// what is below it along, except other movers. Nodes that show no mesh are none (but animated ones that carry a light),
+// with a warning where they were asked for.
+MoverNodes find_movers(const PosedNodes& nodes, Context& context);
 
 // Fills scene.movers out of place_meshes' surfaces, with the first animation that moves each. What shines of an
 // animated one, and its point and spot lights, are lamps with a motion (Scene::lamp_motions). Without an animation a

@@ -74,8 +74,10 @@ class MaterialParser {
     parse_glossiness(value, m);
     parse_coat(value, m);
     parse_anisotropy(value, m);
-    m.metal = parse_metal(value);
-    m.double_sided = value["doubleSided"].boolean(false);
+    const ObjectKeys keys = parse_object_keys(value);
+    m.metal = keys.metal;
+    m.reflections = keys.reflections.value_or(true);
+    m.double_sided = keys.two_sided.value_or(value["doubleSided"].boolean(false));
     m.unlit = value.extension("KHR_materials_unlit").present();
     const JsonAt normal = value["normalTexture"];
     m.normal_texture = slot(normal);
@@ -312,14 +314,6 @@ class MaterialParser {
 };
 
 }  // namespace
-
-Metal parse_metal(const JsonAt& value) {
-  const JsonAt name = value.extra("oriel_metal");
-  if (!name.present()) return Metal::kNone;
-  const auto metal = metal_by_name(name.text());
-  if (!metal) name.expected(metal_names());
-  return metal.value_or(Metal::kNone);
-}
 
 void parse_materials(const JsonAt& root, Document& document) {
   MaterialParser parser(root, document);

@@ -112,8 +112,8 @@ void parse_transform(const JsonAt& value, NodeDesc& node) {
 
 // Half of extras.oriel.angular_diameter_deg: how large a directional light appears.
 float angular_radius(const JsonAt& value, double fallback) {
-  return static_cast<float>(value.extra("oriel")["angular_diameter_deg"].number(fallback * 360 / kPiD, 0, 180) * kPiD /
-                            360);
+  return static_cast<float>(value.extras()["oriel"]["angular_diameter_deg"].number(fallback * 360 / kPiD, 0, 180) *
+                            kPiD / 360);
 }
 
 NodeDesc parse_node(const JsonAt& value, std::size_t count, const Document& document) {
@@ -126,9 +126,7 @@ NodeDesc parse_node(const JsonAt& value, std::size_t count, const Document& docu
   node.weights = parse_weights(value["weights"]);
   node.light = value.extension("KHR_lights_punctual")["light"].index(document.lights.size());
   node.angular_radius_rad = angular_radius(value, -1);
-  node.metal = parse_metal(value);
-  node.mover = value.extra("oriel")["mover"].boolean(false);
-  node.light_group = value.extra("oriel")["light_group"].name();
+  node.keys = parse_object_keys(value);
   parse_transform(value, node);
   node.hidden = !value.extension("KHR_node_visibility")["visible"].boolean(true);
   const JsonAt children = value["children"];
@@ -313,7 +311,22 @@ void note_deformations(Document& document) {
          "animation-left-out"});
 }
 
+void set_key(const std::string& key, const JsonAt& value, ObjectKeys& keys) {
+  if (key == "angular_diameter_deg") return;
+  if (const auto set = set_object_key(key, value.scalar_text(), keys); !set)
+    value.repaired(set.error().message + "; it is ignored");
+}
+
 }  // namespace
+
+ObjectKeys parse_object_keys(const JsonAt& value) {
+  ObjectKeys keys;
+  const JsonAt extras = value.extras(), own = extras["oriel"];
+  for (const std::string& key : own.keys()) set_key(key, own[key.c_str()], keys);
+  for (const std::string& key : extras.keys())
+    if (key.starts_with("oriel_") || key.starts_with("oriel.")) set_key(key.substr(6), extras[key.c_str()], keys);
+  return keys;
+}
 
 void parse_meshes(const JsonAt& root, std::size_t materials, Document& document) {
   const JsonAt meshes = root["meshes"];

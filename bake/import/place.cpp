@@ -9,7 +9,7 @@
 #include "bake/import/deform.h"
 #include "bake/import/node_names.h"
 #include "bake/import/simplify.h"
-#include "bake/import/warning_group.h"
+#include "bake/jobs/warning_group.h"
 
 namespace oriel {
 namespace {
@@ -312,20 +312,33 @@ std::uint32_t material_of(const TriangleMesh& mesh, std::optional<std::uint32_t>
   return *default_material;
 }
 
-// The material with another metal (extras.oriel_metal of the node): a copy of its own, shared between nodes that ask
-// for the same.
-std::uint32_t of_metal(std::uint32_t material, Metal metal,
-                       std::map<std::pair<std::uint32_t, Metal>, std::uint32_t>& copies, Scene& scene) {
-  if (metal == Metal::kNone || scene.materials[material].metal == metal) return material;
-  const auto [found, is_new] = copies.try_emplace({material, metal}, scene.materials.size());
-  if (is_new) {
-    SceneMaterial copy = scene.materials[material];
-    copy.name += fmt::format(" ({})", constants_of(metal).name);
-    copy.metal = metal;
-    scene.materials.push_back(std::move(copy));
+// Materials as nodes want them (ObjectKeys): copies of their own, shared between nodes that ask for the same.
+class MaterialVariants {
+ public:
+  explicit MaterialVariants(Scene& scene) : scene_(scene) {}
+
+  std::uint32_t of(std::uint32_t material, const ObjectKeys& keys) {
+    const SceneMaterial& from = scene_.materials[material];
+    const Metal metal = keys.metal == Metal::kNone ? from.metal : keys.metal;
+    const bool two_sided = keys.two_sided.value_or(from.double_sided),
+               reflections = keys.reflections.value_or(from.reflections);
+    if (metal == from.metal && two_sided == from.double_sided && reflections == from.reflections) return material;
+    const auto [found, is_new] =
+        copies_.try_emplace({material, metal, two_sided, reflections}, scene_.materials.size());
+    if (!is_new) return found->second;
+    SceneMaterial copy = from;
+    if (metal != from.metal) copy.name += fmt::format(" ({})", constants_of(metal).name);
+    if (two_sided != from.double_sided) copy.name += two_sided ? " (two-sided)" : " (one-sided)";
+    if (reflections != from.reflections) copy.name += reflections ? " (with reflections)" : " (without reflections)";
+    copy.metal = metal, copy.double_sided = two_sided, copy.reflections = reflections;
+    scene_.materials.push_back(std::move(copy));
+    return found->second;
   }
-  return found->second;
-}
+
+ private:
+  Scene& scene_;
+  std::map<std::tuple<std::uint32_t, Metal, bool, bool>, std::uint32_t> copies_;
+};
 
 }  // namespace
 
@@ -338,7 +351,7 @@ Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uin
     NodePose pose = waiting.back();  // holds the parent's matrix so far
     waiting.pop_back();
     const gltf::NodeDesc& node = document.nodes[pose.node];
-    if (node.hidden) continue;
+    if (node.hidden || node.keys.exclude.value_or(false)) continue;
     pose.world_from_node = pose.world_from_node * node.matrix;
     if (!finite(pose.world_from_node))
       return invalid(node_path(document, pose.node), "found a world transform that overflows, expected a finite one");
@@ -365,9 +378,8 @@ Status place_meshes(const PosedNodes& nodes, std::span<const LoadedMesh> meshes,
     for (const TriangleMesh& mesh : instance.mesh->primitives)
       with_colors |= !mesh.colors.empty(), with_tangents |= !mesh.tangents.empty();
   Placer placer(scene, context, with_colors, with_tangents);
-  const gltf::NodeNames names(document);
   std::optional<std::uint32_t> default_material;
-  std::map<std::pair<std::uint32_t, Metal>, std::uint32_t> metal_copies;
+  MaterialVariants variants(scene);
   for (const Instance& instance : instances) {
     if (context.stopped()) return fail(ErrorCode::kStopped, document.file, "stopped");
     const gltf::NodeDesc& node = document.nodes[instance.node];
@@ -376,11 +388,11 @@ Status place_meshes(const PosedNodes& nodes, std::span<const LoadedMesh> meshes,
       Surface surface;
       surface.name = !node.name.empty() ? node.name : fmt::format("{}/{}", mesh.name, i);
       surface.mesh_name = mesh.name;
-      surface.node_path = names.path(instance.node);
-      surface.group_mark = names.light_group(instance.node);
+      surface.node_path = gltf::path_of(document, instance.node);
+      surface.group_mark = node.keys.light_group.value_or("");
+      surface.texel_m = node.keys.texel_m.value_or(0);
       surface.mover = nodes.movers.of_node[instance.node];
-      surface.material =
-          of_metal(material_of(mesh.primitives[i], default_material, scene), node.metal, metal_copies, scene);
+      surface.material = variants.of(material_of(mesh.primitives[i], default_material, scene), node.keys);
       placer.place(mesh.primitives[i], instance.world_from_mesh, std::move(surface));
     }
   }

@@ -7,7 +7,7 @@
 #include <map>
 #include <span>
 
-#include "bake/import/warning_group.h"
+#include "bake/jobs/warning_group.h"
 #include "bake/scene/edges.h"
 #include "formats/core/disjoint_sets.h"
 

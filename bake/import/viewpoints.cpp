@@ -77,7 +77,6 @@ Status place_viewpoints(const PosedNodes& nodes, std::span<const Animation> anim
                         Context& context) {
   const Document& document = nodes.document;
   std::vector<std::uint32_t> camera_nodes;
-  const gltf::NodeNames names(document);
   for (const NodePose& node_pose : nodes.poses) {
     const gltf::NodeDesc& node = document.nodes[node_pose.node];
     if (node.camera < 0 && node.light < 0) continue;
@@ -91,8 +90,8 @@ Status place_viewpoints(const PosedNodes& nodes, std::span<const Animation> anim
     if (node.light >= 0) {
       Light light = document.lights[static_cast<std::size_t>(node.light)];
       if (!node.name.empty()) light.name = node.name;
-      light.node_path = names.path(node_pose.node);
-      light.group_mark = names.light_group(node_pose.node);
+      light.node_path = gltf::path_of(document, node_pose.node);
+      light.group_mark = document.nodes[node_pose.node].keys.light_group.value_or("");
       light.position = pose.eye;
       light.direction = pose.forward;
       light.right = glm::cross(pose.forward, pose.up);

@@ -30,7 +30,7 @@ inline constexpr std::string_view kWarningCodes =
     "failed-checks file-damaged idle-option left-out light-groups light-lingers light-units material-value "
     "missing-texcoords missing-texture mover-light mover-still night no-image no-light no-reflections normals-behind "
     "not-oriented plain-charts scene-chosen shared-edges sky-added sun-replaced thin-glass "
-    "time-missed time-over too-small trade-incomplete unit-guessed unsupported";
+    "time-missed time-over too-small trade-incomplete unit-guessed unsupported uv1-faulty uv1-moved";
 constexpr bool is_warning_code(std::string_view name) {
   for (std::size_t at = 0; (at = kWarningCodes.find(name, at)) != kWarningCodes.npos; at += name.size())
     if ((at == 0 || kWarningCodes[at - 1] == ' ') &&

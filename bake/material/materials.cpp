@@ -156,7 +156,7 @@ Needs find_needs(const Scene& scene, MaterialMaps& maps, const MaterialOptions& 
     maps.fresnel_map[m] = fresnel->second;
     needs.f0_varies |= is_textured(scene, scene.materials[m]);
     const bool highlights = shows_highlights(reflectance_at_60_deg(s.f0, s.f90, s.curve), s.alpha);
-    if (s.roughness > options.max_roughness && !highlights) continue;
+    if (!scene.materials[m].reflections || (s.roughness > options.max_roughness && !highlights)) continue;
     maps.kernel[m] = static_cast<std::int32_t>(needs.alphas.size());
     needs.alphas.push_back(s.alpha);
   }

@@ -197,9 +197,10 @@ StageCensus mover_stage(const CensusInput& in) {
   const std::size_t count = in.prepared.movers.size();
   return {"movers",
           count > 0,
-          count > 0                  ? "transfer by vertex, and the light that movers meet"
-          : in.options.with_transfer ? "no transfer and no light field: no node is marked, animated or named by --mover"
-                                     : "no transfer and no light field: left out by --only",
+          count > 0 ? "transfer by vertex, and the light that movers meet"
+          : in.options.with_transfer
+              ? "no transfer and no light field: no node is marked (--object NODE:mover) or animated"
+              : "no transfer and no light field: left out by --only",
           {{"movers", count}, {"vertices", vertices}}};
 }
 

@@ -31,6 +31,10 @@ constexpr std::array kImportRules{
                "merge by distance, or move the scene to its origin"},
     ImportRule{"shared-edges", FindingKind::kDegenerate, "edges of two triangles",
                "delete faces inside the body, or split it"},
+    ImportRule{"uv1-faulty", FindingKind::kLightmapUv, "coordinates on which every triangle owns its texels",
+               "unwrap it again, without overlap, into a second UV layer"},
+    ImportRule{"uv1-moved", FindingKind::kLightmapUv, "charts apart from each other, at the scale of the others",
+               "accept that they are packed anew, or pack them so where the file was made"},
     ImportRule{"unit-guessed", FindingKind::kImport, "numbers in metres, as glTF has them",
                "export in metres, or name the unit with --unit"},
     ImportRule{"eyes-guessed", FindingKind::kImport, "cameras, or rooms, as people of usual size have them",
@@ -118,15 +122,6 @@ void check_texels(const Scene& scene, const AtlasOptions& atlas, double area_m2,
         {FindingKind::kTexelDensity, "--texel", fmt::format("{:.3g} m gives {:.0f} texels in all", texel, texels),
          fmt::format("at least {:.0f}: a scene of {:.3g} m² shows no shadow otherwise", kLeastTexels, area_m2),
          fmt::format("--texel {:.2g}m, and see that the scene is in metres", std::sqrt(area_m2 / 1e4))});
-}
-
-void check_lightmap_uv(const Scene& scene, const AtlasOptions& atlas, std::vector<Finding>& findings) {
-  if (atlas.source != AtlasOptions::Source::kUv1) return;
-  for (const Surface& surface : scene.surfaces)
-    if (!surface.has_uv1 && !scene.materials[surface.material].unlit)
-      findings.push_back({FindingKind::kLightmapUv, surface.name, "no TEXCOORD_1",
-                          "lightmap coordinates on every surface, as --atlas uv1 asks for",
-                          "unwrap it into a second UV layer; automatic charts are used for it otherwise"});
 }
 
 }  // namespace oriel

@@ -42,7 +42,7 @@ struct AllowedFinding {
 Result<std::vector<AllowedFinding>> parse_allowed(const std::string& text);
 bool is_allowed(const Finding& finding, std::span<const AllowedFinding> allowed);
 
-// What the importer's warnings mean.
+// What warnings of the importer and the atlas mean.
 std::vector<Finding> findings_of_import(std::span<const Warning> warnings);
 // Punctual lights, emitters and the sum of all of them beside the area that they light, m².
 void check_lights(const Scene& scene, const LightSet& lights, double area_m2, std::vector<Finding>& findings);
@@ -51,7 +51,5 @@ void check_walls(const Scene& scene, const ViewShares& views, std::vector<Findin
 void check_albedos(const Scene& scene, std::span<const MaterialSummary> materials, std::vector<Finding>& findings);
 // How fine the texels are asked for, beside positions, page and surfaces. area_m2: of all surfaces.
 void check_texels(const Scene& scene, const AtlasOptions& atlas, double area_m2, std::vector<Finding>& findings);
-// --atlas uv1: surfaces without coordinates.
-void check_lightmap_uv(const Scene& scene, const AtlasOptions& atlas, std::vector<Finding>& findings);
 
 }  // namespace oriel

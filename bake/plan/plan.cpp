@@ -1,25 +1,12 @@
 #include "bake/plan/plan.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 
 namespace oriel {
 namespace {
-
-// The lightmap's layout; where the artist's coordinates cannot be taken that is a finding, and automatic ones serve.
-Status lay_out(BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
-               std::vector<Finding>& findings) {
-  check_lightmap_uv(prepared.scene(), options.atlas, findings);
-  const Status laid = lay_out_lightmap(options, timed, context, prepared);
-  if (laid || options.atlas.source != AtlasOptions::Source::kUv1 || laid.error().code != ErrorCode::kInvalid)
-    return laid;
-  findings.push_back({FindingKind::kLightmapUv, laid.error().where, laid.error().message,
-                      "coordinates in [0, 1] on which every triangle owns its texels",
-                      "unwrap it again without overlap, or bake with --atlas auto"});
-  options.atlas.source = AtlasOptions::Source::kAuto;
-  return lay_out_lightmap(options, timed, context, prepared);
-}
 
 double seconds_of(const std::vector<StageTime>& times) {
   return std::accumulate(times.begin(), times.end(), 0.0,
@@ -37,9 +24,14 @@ Result<ScenePlan> make_plan(const BakeOptions& asked, bool with_pilot, Context& 
   std::vector<Warning> warnings;
   const WarningLog log(context, warnings, false);
   ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
-  plan.findings = findings_of_import(warnings);
   const Scene& scene = prepared.scene();
-  ORIEL_TRY_VOID(lay_out(options, timed, context, prepared, plan.findings));
+  const std::size_t imported = warnings.size();
+  ORIEL_TRY_VOID(lay_out_lightmap(options, timed, context, prepared));
+  const auto of_atlas = [](const Warning& said) { return said.code == "uv1-faulty" || said.code == "uv1-moved"; };
+  warnings.erase(
+      std::remove_if(warnings.begin() + static_cast<std::ptrdiff_t>(imported), warnings.end(), std::not_fn(of_atlas)),
+      warnings.end());
+  plan.findings = findings_of_import(warnings);
   if (options.choose_texel) options.atlas.texel_m = prepared.atlas.texel_m;
   const LightSet lights(scene, &*prepared.accel);
   ORIEL_TRY(const MaterialMaps materials,

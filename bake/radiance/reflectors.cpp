@@ -22,6 +22,7 @@ using Groups = std::map<std::pair<std::uint32_t, std::string>, std::vector<std::
 // Why a material shows no image; empty where it may.
 std::string excluded_because(const SceneMaterial& m, const ReflectorMaterial& r, const ReflectorOptions& options) {
   if (m.unlit) return "it is unlit";
+  if (!m.reflections) return "it is asked to show none (reflections=false)";
   const float reflectance = reflectance_at_60_deg(r);
   if (!(reflectance >= options.min_reflectance))
     return fmt::format("it reflects {:.2g} % at 60°, less than {:.2g} %", 100 * reflectance,

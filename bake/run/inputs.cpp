@@ -18,7 +18,7 @@ void add_slot(Archive& archive, const Scene& scene, const TextureSlot& slot) {
 void add_material(Archive& archive, const Scene& scene, const SceneMaterial& m) {
   archive(m.base_color, m.alpha, m.metallic, m.roughness, m.ior, m.specular, m.specular_color, m.transmission,
           m.thickness_m, m.solid, m.absorption, m.normal_scale, m.coat, m.coat_roughness, m.anisotropy,
-          m.anisotropy_rotation_rad, m.metal, m.alpha_mode, m.alpha_cutoff, m.double_sided, m.unlit);
+          m.anisotropy_rotation_rad, m.metal, m.alpha_mode, m.alpha_cutoff, m.double_sided, m.unlit, m.reflections);
   for (const TextureSlot* slot : texture_slots(m))
     if (slot != &m.emission_texture) add_slot(archive, scene, *slot);
 }

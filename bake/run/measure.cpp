@@ -5,6 +5,7 @@
 #include "bake/run/options.h"
 #include "bake/run/pipeline.h"
 #include "formats/core/file.h"
+#include "formats/core/text.h"
 
 namespace oriel {
 namespace {

@@ -20,14 +20,17 @@ std::vector<Option> atlas_options(BakeOptions& o) {
        or_auto(o.choose_texel, "LENGTH", quantity(o.atlas.texel_m, "", parse_length, length_text)), Use::kEveryday,
        "texel_m", "notes/atlas.md"},
       {"--atlas", kLightmap,
-       "Where lightmap coordinates come from: auto (charts of our own) or uv1 (the artist's "
-       "TEXCOORD_1, where overlaps are an error)",
+       "Where lightmap coordinates come from: auto (charts of our own) or uv1 (the artist's TEXCOORD_1: its charts, "
+       "packed at --texel; what lacks them or overlaps gets charts of ours, with a warning)",
        choice(o.atlas.source, {{"auto", AtlasOptions::Source::kAuto}, {"uv1", AtlasOptions::Source::kUv1}}), Use::kRare,
        "atlas", "notes/atlas.md"},
       {"--resolution", kLightmap,
-       "Side of the lightmap page in texels. With --atlas uv1 it is the page that the coordinates are meant for; with "
-       "auto, everything shall fit on one such page",
+       "Side of the one lightmap page, in texels, that everything shall fit on. With --atlas uv1 coordinates of all "
+       "that share a page without overlap stay as they are",
        number(o.atlas.resolution, 16, 16384), Use::kRare, "resolution"},
+      {"--padding", kLightmap,
+       "Texels between charts, at least. 2 keep them apart as they are, 5 in the first mip, 11 in the second",
+       number(o.atlas.padding, 1, 64), Use::kRare, "padding"},
       {"--memory-limit", kLightmap,
        "Memory that the bake may take. With --texel auto what is seen least gets larger texels to keep it; a length "
        "that does not fit is an error that names one that does. Default: half of what is free",
@@ -203,10 +206,12 @@ std::vector<Option> light_options(ImportOptions& import) {
 
 std::vector<Option> mover_options(ImportOptions& import) {
   return {
-      {"--mover", kMovers,
-       "A node that moves, with what is below it, beside those that the file marks (extras.oriel.mover) or animates. "
-       "May be repeated",
-       texts(import.movers, "NODE"), Use::kEveryday, "movers", "scenes.md#movers"},
+      {"--object", kScene,
+       "What nodes of that name or path (with * for any letters), and all below them, are: mover, exclude, two_sided, "
+       "reflections=false, texel=2cm, density=50 (texels a metre), light_group=NAME, metal=NAME. Over what "
+       "extras.oriel "
+       "in the file says. FILE.json names many. May be repeated",
+       objects(import.objects), Use::kEveryday, "objects", "scenes.md#control-by-object"},
       {"--move", kMovers,
        "Puts a mover, or the middle of what shines of a node, there (world metres) and turns it about up by degrees, "
        "before anything is computed. May be repeated",
@@ -284,9 +289,7 @@ Status settle(BakeOptions& o, const Given& given) {
   if (!artist && o.atlas.resolution > 0 && given.has("--texel"))
     return fail(ErrorCode::kUsage, "",
                 "found both --texel and --resolution, expected one: with --atlas auto each follows from the other");
-  if (artist && o.atlas.resolution == 0)
-    return fail(ErrorCode::kUsage, "--atlas uv1",
-                "needs --resolution N, the side of the page its coordinates are meant for");
+  o.radiosity.dilation = std::max(o.radiosity.dilation, (o.atlas.padding + 1) / 2);
   return {};
 }
 
@@ -294,8 +297,7 @@ std::string options_json(const BakeOptions& options, std::uint64_t seed) {
   BakeOptions o = options;
   Json json = {{"seed", seed}};
   for (const Option& option : bake_options(o)) record(option, json);
-  json.update({{"padding", o.atlas.padding},
-               {"most_rays", o.radiosity.most_rays},
+  json.update({{"most_rays", o.radiosity.most_rays},
                {"filter_scales", o.radiosity.filter.scales},
                {"filter_strength", o.radiosity.filter.strength},
                {"dilation", o.radiosity.dilation},

@@ -146,6 +146,28 @@ OptionValue hours(ImportOptions& o) {
           [&o] { return hours_text(o.day); }, [&o] { return Json(hours_text(o.day)); }};
 }
 
+OptionValue objects(std::vector<ObjectRule>& rules) {
+  OptionValue value(
+      "NODE:KEY=VALUE,…|FILE.json",
+      [&rules](const std::string& typed) -> Status {
+        ORIEL_TRY(const std::vector<ObjectRule> more, parse_object_rules(typed));
+        rules.insert(rules.end(), more.begin(), more.end());
+        return {};
+      },
+      [&rules] {
+        std::string all;
+        for (const ObjectRule& rule : rules) add_word(all, text_of(rule));
+        return all;
+      });
+  value.repeats = true;
+  value.json = [&rules] {
+    Json all = Json::array();
+    for (const ObjectRule& rule : rules) all.push_back(text_of(rule));
+    return all;
+  };
+  return value;
+}
+
 OptionValue moves(std::vector<MoverMove>& moves) {
   OptionValue value = each(moves, "NODE=x,y,z[,yaw]", parse_move, text_of);
   value.json = [&moves] {

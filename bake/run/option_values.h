@@ -29,6 +29,7 @@ OptionValue light_groups(BakeOptions& o);
 OptionValue sky(ImportOptions& o);
 OptionValue day(ImportOptions& o);
 OptionValue hours(ImportOptions& o);
+OptionValue objects(std::vector<ObjectRule>& rules);
 OptionValue moves(std::vector<MoverMove>& moves);  // --move
 OptionValue light_scales(std::vector<LightScale>& scales);
 OptionValue profiles(ImportOptions& o);  // --ies

@@ -15,12 +15,6 @@ BakeOptions::BakeOptions(const BakeOptions&) = default;
 BakeOptions::BakeOptions(BakeOptions&&) noexcept = default;
 BakeOptions& BakeOptions::operator=(const BakeOptions&) = default;
 BakeOptions& BakeOptions::operator=(BakeOptions&&) noexcept = default;
-Result<float> parse_length(const std::string& text) {
-  static constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000}};
-  ORIEL_TRY(const double metres, parse_quantity(text, kUnits, "length", "10cm, 0.1m or 100mm"));
-  return static_cast<float>(metres);
-}
-
 Result<double> parse_duration(const std::string& text) {
   static constexpr Unit kUnits[] = {{"s", 1}, {"min", 60}, {"h", 3600}};
   return parse_quantity(text, kUnits, "time", "30s, 10min or 2h");

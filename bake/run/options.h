@@ -73,9 +73,7 @@ struct BakeOptions {
   bool reproducible = false;  // the same bytes on every CPU type
 };
 
-// Bytes and shares: formats/core/text.h.
-// "5cm", "0.05m", "50mm" as metres; a unit is required. Error kUsage.
-Result<float> parse_length(const std::string& text);
+// Lengths, bytes and shares: formats/core/text.h.
 // "30s", "10min" or "2h" as seconds; a unit is required. Error kUsage.
 Result<double> parse_duration(const std::string& text);
 // "10%" or "off" as a fraction, >= 0. Error kUsage.

@@ -274,7 +274,7 @@ class Bake {
   Result<LightField> bake_light_field_of_movers() {
     if (!wants_light_field()) {
       if (options_.with_transfer)
-        result_.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
+        result_.omissions.emplace_back("movers: no node is marked (--object NODE:mover) or animated");
       return LightField();
     }
     const auto left = [this] { return context_.finish ? 0 : budget_.left() - writing_s(); };

@@ -64,6 +64,7 @@ struct SceneMaterial {
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
   bool unlit = false;
+  bool reflections = true;  // false: it is asked to show no image of its surroundings
 };
 
 // All texture slots of a material (const or not).
@@ -84,6 +85,7 @@ struct Surface {
   std::uint32_t first_triangle = 0, triangle_count = 0;  // into Scene::triangles
   std::uint32_t first_vertex = 0, vertex_count = 0;      // into the vertex arrays; not shared with other surfaces
   bool has_uv1 = false;
+  float texel_m = 0;              // asked for; 0: what eyes want
   std::int32_t mover = -1;        // into Scene::movers; -1: it stands still
   std::int32_t motion = -1;       // into Scene::lamp_motions: a lamp that stands still in the bake alone
   std::string group_mark{};       // extras.oriel.light_group of its node, or of the nearest above it that has one

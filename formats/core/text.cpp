@@ -51,6 +51,12 @@ std::string share_text(double share) {
   return share > 0 ? fmt::format("{:.6g}%", 100 * share) : "";
 }
 
+Result<float> parse_length(const std::string& text) {
+  static constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000}};
+  ORIEL_TRY(const double metres, parse_quantity(text, kUnits, "length", "10cm, 0.1m or 100mm"));
+  return static_cast<float>(metres);
+}
+
 Result<std::uint64_t> parse_bytes(const std::string& text) {
   static constexpr Unit kUnits[] = {{"B", 1},      {"kB", 1e3},      {"MB", 1e6},        {"GB", 1e9},
                                     {"KiB", 1024}, {"MiB", 1048576}, {"GiB", 1073741824}};

@@ -32,6 +32,8 @@ Result<double> parse_quantity(const std::string& text, std::span<const Unit> uni
 // kUsage.
 Result<double> parse_share(const std::string& text);
 std::string share_text(double share);  // "" for 0
+// "5cm", "0.05m", "50mm" as metres; a unit is required. Error kUsage.
+Result<float> parse_length(const std::string& text);
 // "64MiB", "2GB", "500000B" as bytes. Error kUsage.
 Result<std::uint64_t> parse_bytes(const std::string& text);
 

@@ -192,7 +192,7 @@ Status compare_shades(const ShownArguments& arguments, const ShadeArguments& ask
   ORIEL_TRY(Pack pack, open_or_bake(arguments.input, {}));
   if (pack.movers.empty() || pack.lightmaps.empty())
     return fail(ErrorCode::kUsage, arguments.input,
-                "found no movers over a lightmap, expected some: oriel-bake --mover NODE makes them");
+                "found no movers over a lightmap, expected some: oriel-bake --object NODE:mover makes them");
   ORIEL_TRY(ShownScene shown, ShownScene::open(std::move(pack)));
   ORIEL_TRY(ShadeSteps steps, ShadeSteps::create(shown.device.dialect));
   ShadeComparison comparison(shown, steps, arguments);

@@ -129,7 +129,7 @@ Status run_herf1997(const ShownArguments& arguments, const Herf1997Settings& set
   ORIEL_TRY(Pack pack, open_or_bake(arguments.input, options));
   if (pack.movers.empty())
     return fail(ErrorCode::kUsage, arguments.input,
-                "found no movers, expected some: oriel-bake --mover NODE makes them");
+                "found no movers, expected some: oriel-bake --object NODE:mover makes them");
   ORIEL_TRY(ShownScene shown, ShownScene::open(std::move(pack)));
   ORIEL_TRY(const Camera camera, camera_of(*shown.scene, arguments.cameras));
   ORIEL_TRY(TextureShadows textures, TextureShadows::create(shown.device.dialect));

@@ -5,6 +5,7 @@
 #include "bake/run/pipeline.h"
 #include "bake/run/prepare.h"
 #include "formats/cli/command.h"
+#include "formats/core/text.h"
 #include "formats/pack/reader.h"
 
 namespace oriel {

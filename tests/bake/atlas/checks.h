@@ -110,7 +110,10 @@ inline void expect_sound(const Scene& scene, const Built& built) {
   }
   EXPECT_EQ(charts.size(), atlas.chart_count);
   EXPECT_EQ(shared_texels(atlas, built.map), 0u);
-  EXPECT_EQ(atlas.report.overlapping_texels, 0u);
+  // An artist's charts may touch.
+  if (!atlas.pages[0].from_uv1) {
+    EXPECT_EQ(atlas.report.overlapping_texels, 0u);
+  }
 }
 
 }  // namespace oriel

@@ -45,6 +45,26 @@ TEST(TexelDemand, ChartsGetTheTexelOfTheirDistance) {
   EXPECT_EQ(count, (std::vector<std::size_t>{80 * 40, 80 * 40, 20 * 10, 20 * 10}));
 }
 
+TEST(TexelDemand, ASurfaceThatAsksForATexelGetsIt) {
+  Scene scene = walls();
+  scene.surfaces[1].texel_m = 0.05f;  // finer than any
+  scene.surfaces[3].texel_m = 0.4f;
+  const auto count = texels_of(scene, {.texel_m = 0.1f}, demand({1, 1, 8, 1}));
+  EXPECT_EQ(count, (std::vector<std::size_t>{80 * 40, 160 * 80, 20 * 10, 20 * 10}));
+}
+
+TEST(TexelDemand, AnArtistsSurfaceHasOneTexelForAllItsCharts) {
+  Scene scene = walls();
+  for (std::size_t i = 0; i < 4; ++i) scene.surfaces[i].has_uv1 = i == 2;
+  for (const std::uint32_t t : {4u, 5u})
+    for (int k = 0; k < 3; ++k) scene.uv1[scene.triangles[t][k]] = 0.1f * Vec2(scene.positions[scene.triangles[t][k]]);
+  TexelDemand seen = demand({1, 1, 4, 1});
+  seen.triangles[5] = {0, 0, 1};  // half of it is seen by nobody
+  const auto count = texels_of(scene, {.source = AtlasOptions::Source::kUv1, .texel_m = 0.1f}, seen);
+  EXPECT_EQ(count[2], 40u * 20) << "0.05 rad from 4 m";
+  EXPECT_EQ(count[0], 80u * 40) << "charts of ours are as they were";
+}
+
 TEST(TexelDemand, WhatIsSeenLittleGetsLargerTexels) {
   TexelDemand seen = demand({1, 1, 1, 1});
   for (int t = 6; t < 8; ++t) seen.triangles[t].pixels /= 1000, seen.triangles[t].inverse_square /= 1000;

@@ -143,7 +143,6 @@ TEST(AtlasLayout, OptionsAreChecked) {
   refused([](AtlasOptions& o) { o.padding = 0; });
   refused([](AtlasOptions& o) { o.flat_angle_deg = 90; });
   refused([](AtlasOptions& o) { o.curved_angle_deg = 90; });
-  refused([](AtlasOptions& o) { o.source = AtlasOptions::Source::kUv1; });
 }
 
 Scene mixed_scene() {

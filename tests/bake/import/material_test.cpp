@@ -268,9 +268,8 @@ TEST(Materials, UnknownMetalsAreNamed) {
     Gltf g = textured("{}");
     g.doc[where][0]["extras"] = {{"oriel_metal", "unobtainium"}};
     const Imported r = import(g);
-    ASSERT_FALSE(r.ok());
-    EXPECT_NE(r.error().find("unobtainium"), std::string::npos) << r.error();
-    EXPECT_NE(r.error().find("gold, silver"), std::string::npos) << r.error();
+    ASSERT_TRUE(r.ok());
+    EXPECT_TRUE(r.warned("found unobtainium, expected gold, silver"));
     g.doc[where][0]["extras"] = "anybody's text";
     EXPECT_TRUE(import(g).ok());
   }

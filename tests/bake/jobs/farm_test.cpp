@@ -63,7 +63,7 @@ class Farm : public ::testing::Test {
   }
 
   static constexpr const char *kAlbedo = "0.6100000143051147", *kDarker = "0.5100000143051147";  // of its white
-  static constexpr const char *kScene = " --texel 6cm --mover 'tall block' --probe 80cm --quiet",
+  static constexpr const char *kScene = " --texel 6cm --object 'tall block:mover' --probe 80cm --quiet",
                               *kError = " --error 6%";
   const std::string kOptions = std::string(kScene) + kError;
   testing::TemporaryFolder folder_;

@@ -240,7 +240,7 @@ TEST(Doctor, LightmapCoordinatesThatOverlapOrAreMissing) {
   const auto at =
       std::find_if(found.begin(), found.end(), [](const Finding& f) { return f.kind == FindingKind::kLightmapUv; });
   ASSERT_NE(at, found.end());
-  EXPECT_NE(at->found.find("overlaps"), std::string::npos) << at->found;
+  EXPECT_NE(at->found.find("overlaps that of"), std::string::npos) << at->found;
 }
 
 TEST(Allowed, ByKindNumberAndObject) {

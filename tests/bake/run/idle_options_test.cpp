@@ -13,13 +13,12 @@ namespace {
 
 // They decide what is done in any scene, or are refused where they would do nothing.
 const std::set<std::string> kAlwaysEffective = {
-    "--atlas",         "--bounces",   "--day",          "--directional",    "--double-sided",
-    "--error",         "--estimator", "--eye-height",   "--eyes",           "--hidden-black",
-    "--hours",         "--ies",       "--light-groups", "--memory-limit",   "--move",
-    "--mover",         "--only",      "--pvs",          "--reproducible",   "--resolution",
-    "--samples",       "--scene",     "--sky",          "--sky-type",       "--texel",
-    "--texel-means",   "--time",      "--unit",         "--max-reflectors", "--lamp-scale",
-    "--emission-scale"};
+    "--atlas",        "--bounces",       "--day",         "--directional",  "--double-sided", "--error",
+    "--estimator",    "--eye-height",    "--eyes",        "--hidden-black", "--hours",        "--ies",
+    "--light-groups", "--memory-limit",  "--move",        "--object",       "--only",         "--padding",
+    "--pvs",          "--reproducible",  "--resolution",  "--samples",      "--scene",        "--sky",
+    "--sky-type",     "--texel",         "--texel-means", "--time",         "--unit",         "--max-reflectors",
+    "--lamp-scale",   "--emission-scale"};
 constexpr IdleFacts kAll{true, true, true, true, true};
 
 BakeOptions with(const std::string& option) {

@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 
-SMALL = '--texel 5cm --error 5% --mover "tall block" --probe 50cm'  # two seconds of the Cornell box
+SMALL = '--texel 5cm --error 5% --object "tall block:mover" --probe 50cm'  # two seconds of the Cornell box
 
 
 def add_arguments(parser):
