@@ -10,8 +10,8 @@
 namespace oriel {
 namespace {
 
-const std::vector<std::string> kKeys{"density", "exclude", "light_group", "metal",
-                                     "mover",   "reflections", "texel",   "two_sided"};
+const std::vector<std::string> kKeys{"density", "exclude",     "light_group", "metal",
+                                     "mover",   "reflections", "texel",       "two_sided"};
 
 std::optional<double> number_of(std::string_view text) {
   double number = 0;
@@ -76,7 +76,8 @@ Result<std::vector<ObjectRule>> parse_object_rules(const std::string& text) {
     ORIEL_TRY(const Json json, Json::parse(bytes, text));
     for (const auto& [nodes, keys] : json.items()) {
       ObjectRule& rule = rules.emplace_back(ObjectRule{nodes, {}});
-      for (const auto& [key, value] : keys.items()) rule.keys.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump_ascii());
+      for (const auto& [key, value] : keys.items())
+        rule.keys.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump_ascii());
     }
     if (rules.empty()) return invalid(text, "found no object, expected {{\"NODE\": {{\"KEY\": VALUE, …}}, …}}");
   } else {

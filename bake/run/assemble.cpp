@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "bake/scene/sky.h"
 namespace oriel {
 namespace {
 
@@ -176,6 +177,7 @@ void assemble_scene(const Scene& scene, MaterialMaps maps, AssembledMesh mesh, P
   pack.cameras = scene.cameras;
   pack.paths = scene.paths;
   pack.sky = scene.sky;
+  pack.sky_map = make_sky_map(scene);
 }
 
 std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<const std::uint32_t> triangles) {

@@ -40,6 +40,31 @@ Vec3 sky_radiance(const Scene& scene, const Vec3& direction) {
   return glm::mix(glm::mix(texels[at[0]], texels[at[1]], fx), glm::mix(texels[at[2]], texels[at[3]], fx), fy);
 }
 
+SkyMap make_sky_map(const Scene& scene) {
+  const SkyImage& image = scene.sky_image;
+  SkyMap map;
+  if (image.texels.empty()) return map;
+  map.width = std::min(image.width, 2048u), map.height = std::min(image.height, 1024u);
+  const std::uint32_t steps = (image.width + map.width - 1) / map.width;  // within a texel, each way
+  for (std::uint32_t y = 0; y < map.height; ++y)
+    for (std::uint32_t x = 0; x < map.width; ++x) {
+      Vec3 sum(0);
+      for (std::uint32_t i = 0; i < steps * steps; ++i) {
+        const auto at = [&](std::uint32_t whole, std::uint32_t part) {
+          return static_cast<float>(whole * steps + part) + 0.5f;
+        };
+        const float turn = 2 * kPi * at(x, i % steps) / static_cast<float>(map.width * steps) - kPi,
+                    polar = kPi * at(y, i / steps) / static_cast<float>(map.height * steps);
+        sum +=
+            sky_radiance(scene, {std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)});
+      }
+      Vec3& texel = map.texels.emplace_back(0);
+      for (int c = 0; c < 3; ++c)
+        if (scene.sky[c] > 0) texel[c] = sum[c] / (scene.sky[c] * static_cast<float>(steps * steps));
+    }
+  return map;
+}
+
 void shares_of_sky(const Scene& scene, const Vec3& direction, std::vector<float>& shares) {
   const auto [at, fx, fy] = texels_around(scene.sky_image, direction);
   const std::size_t parts = scene.sky_parts.groups.size();

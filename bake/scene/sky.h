@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/scene/scene.h"
+#include "formats/assets/sky_map.h"
 
 namespace oriel {
 
@@ -35,6 +36,9 @@ inline std::uint32_t sky_owner(const Scene& scene) {
 
 // Mean over the sphere of what sky_radiance interpolates, cd/m².
 Vec3 sky_mean(const SkyImage& image);
+
+// The image for a pack, at most 2048 texels wide.
+SkyMap make_sky_map(const Scene& scene);
 
 // The rows of the grid that has the texel centres as its corners: row k lies between v = (k - ½)/height and (k + ½)
 // /height, cut at the poles. k from 0 to height. Upper and lower corner row, and the cosines of the polar angles.

@@ -309,6 +309,13 @@ void describe(Serial& s, MapMesh& mesh) {
   describe_indices(s, mesh.indices, indices, mesh.vertices.size());
 }
 
+void describe(Serial& s, SkyMap& sky) {
+  std::int32_t exponent = s.reading() ? 0 : scale_exponent(largest_channel(sky.texels), 9);
+  s.size(sky.width, sky.height);
+  s.scale_exponent(exponent);
+  describe_rgb9e5(s, sky.texels, std::uint64_t{sky.width} * sky.height, exponent);
+}
+
 void describe_place(Serial& s, SurroundMap& map, SurroundMapScale& scale) {
   s(map.centre, map.size);
   if (map.size > kMaxSide || !std::has_single_bit(map.size))

@@ -18,6 +18,7 @@
 #include "formats/assets/mover.h"
 #include "formats/assets/radiance_map.h"
 #include "formats/assets/sharp_light.h"
+#include "formats/assets/sky_map.h"
 #include "formats/assets/surround_map.h"
 #include "formats/assets/walk_grid.h"
 #include "formats/core/bytes.h"
@@ -49,7 +50,8 @@ struct Pack {
   // JSON: what was modelled, what was omitted and why, errors and costs per stage.
   std::string plan;
   Mesh mesh;
-  Vec3 sky{0};  // constant sky radiance, cd/m²
+  Vec3 sky{0};     // mean radiance of the sky, cd/m²
+  SkyMap sky_map;  // how it differs by direction
   std::vector<Material> materials;
   std::vector<SolidGlass> solids;                  // by rising material
   std::vector<EmissionTexture> emission_textures;  // by rising material

@@ -17,6 +17,7 @@ void describe(Serial& s, LightmapPage& page);
 void describe(Serial& s, Reflector& reflector);
 void describe(Serial& s, RadianceMap& map);
 void describe(Serial& s, MapMesh& mesh);
+void describe(Serial& s, SkyMap& sky);
 void describe(Serial& s, Emitter& emitter);
 void describe(Serial& s, CurvedReflector& reflector);
 void describe(Serial& s, SurroundMap& map);
@@ -109,6 +110,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.list(kLightGroupSection, pack.light_groups);
   v.each(kPageGroupsSection, pack.page_groups);
   v.one(kDaySection, pack.day, !pack.day.empty());
+  v.one(kSkyMapSection, pack.sky_map, pack.sky_map.width > 0);
 }
 inline void describe(Serial& s, Vec3& sky) {
   s(sky);

@@ -205,6 +205,11 @@ void validate_texts(const Pack& pack, IssueList& list) {
   list.in_section(kSceneSection);
   if (!not_negative(pack.sky))
     list.error(804, "found sky radiance {}, expected finite numbers from 0 up", text_of(pack.sky));
+  const SkyMap& sky = pack.sky_map;
+  if (sky.texels.size() != std::size_t{sky.width} * sky.height ||
+      !std::ranges::all_of(sky.texels, [](const Vec3& texel) { return not_negative(texel); }))
+    list.error(804, "found a sky map of {} x {} with {} texels, expected finite ones from 0 up", sky.width, sky.height,
+               sky.texels.size());
 }
 
 void validate_unknown(const Pack& pack, IssueList& list) {

@@ -98,6 +98,7 @@ Status GlassCubes::draw_around(const FrameContext& context, std::size_t body, co
     glViewport(0, 0, kAroundSize, kAroundSize);
     clear_all(Vec4(scene.pack().sky, kClosest));
     const FrameContext outside{scene, view, context.options, context.stats};
+    scene_pass.draw_sky(outside, kClosest);
     const MirroredScene seen{visible_batches(scene.opaque(), make_frustum(view.clip_from_pack)), {}, {}};
     scene_pass.draw_reflected(outside, seen);
     ORIEL_TRY_VOID(scene_pass.draw_transparent(outside, {}, [](std::size_t) { return true; }));

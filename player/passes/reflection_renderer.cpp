@@ -277,6 +277,7 @@ Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const Refle
   FrameOptions whole = options;  // what is in it is shown with all stages
   whole.show = Show::kAll;
   const ReflectionWork within = work.with({scene, view, whole, stats});
+  work.scene_pass.draw_sky(within.context, kClosest);
   const ReflectionTarget inside{nullptr,
                                 &image.target,
                                 target.mirrors + 1,

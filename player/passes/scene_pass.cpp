@@ -82,6 +82,7 @@ Result<ScenePass> ScenePass::create(const gpu::Device& device) {
   if (device.shades_hidden) {
     ORIEL_TRY(pass.seen_, gpu::Program::create("seen", dialect));
   }
+  ORIEL_TRY(pass.sky_, gpu::Program::create("screen_sky", dialect));
   ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
   ORIEL_TRY(pass.plain_depth_, gpu::Program::create("depth", dialect, "PLAIN"));
   ORIEL_TRY(pass.opaque_, Shading::create("scene", dialect));
@@ -236,6 +237,26 @@ void ScenePass::draw_reflected(const FrameContext& context, const MirroredScene&
   const Frustum frustum = make_frustum(view.clip_from_pack);
   for (const std::uint32_t emitter : mirrored.dark)  // the same depths again
     for (const DrawBatch& batch : visible_batches(scene.emitter(emitter), frustum)) draw(batch, 1, 0);
+}
+
+void ScenePass::draw_sky(const FrameContext& context, float alpha) const {
+  const auto& [scene, view, options, stats] = context;
+  if (!scene.sky_map()) return;
+  gpu::RasterState state;
+  state.depth_test = true;
+  gpu::apply(state);
+  scene.bind_geometry();
+  scene.sky_map().bind(0);
+  sky_.use();
+  sky_.set("u_sky", 0);
+  sky_.set("u_color", scene.pack().sky);
+  sky_.set("u_pack_from_clip", glm::inverse(view.clip_from_view * view.view_from_pack));
+  sky_.set("u_eye", view.eye);
+  sky_.set("u_size", Vec2(view.width, view.height));
+  sky_.set("u_alpha", alpha);
+  glDepthRange(1, 1);  // behind all
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthRange(0, 1);
 }
 
 Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeights& weights,

@@ -51,6 +51,8 @@ class ScenePass {
   // movers take, if anything.
   void draw_opaque(const FrameContext& context, std::span<const DrawBatch> shown, const SceneWeights& weights,
                    const std::set<std::uint32_t>& reflective, const std::optional<BrightChange>& change) const;
+  // The sky where nothing was drawn, of a map; an even one is what the target was cleared to. alpha: its own there.
+  void draw_sky(const FrameContext& context, float alpha) const;
   // Depth of that part of the scene, of all of the scene's indices.
   void draw_reflected_depth(const FrameContext& context, const MirroredScene& mirrored) const;
   // Its light as the mirror shows it, and its depth where it is not there yet; a: 1 / distance from the view's eye, or
@@ -78,7 +80,7 @@ class ScenePass {
   const gpu::Program& set_material(const Shading& shading, const GpuScene& scene, std::uint32_t material,
                                    std::int32_t lightmap_page) const;
 
-  gpu::Program depth_, plain_depth_, seen_;
+  gpu::Program depth_, plain_depth_, seen_, sky_;
   // plain: of surfaces without normal map, cut-outs or change by movers, that are lit; reflected: those in the image of
   // a mirror.
   Shading opaque_, plain_, reflected_, transparent_;

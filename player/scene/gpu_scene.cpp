@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "formats/core/half.h"
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
 #include "player/scene/live_lamps.h"
@@ -306,6 +307,13 @@ void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, con
   flat_ = gpu::Texture2d(gpu::kRgba8, 1, 1, flat.data());
   reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
   sharp_light_ = GpuSharpLight::upload(pack_.sharp_light);
+  if (const SkyMap& sky = pack_.sky_map; sky.width > 0) {
+    std::vector<std::uint32_t> texels;
+    for (const Vec3& texel : sky.texels) texels.push_back(rgb9e5_from_rgb(texel));
+    sky_map_ =
+        gpu::Texture2d(gpu::kRgb9e5, static_cast<int>(sky.width), static_cast<int>(sky.height), texels.data(),
+                       gpu::TextureOptions{.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR, .wrap_s = GL_REPEAT});
+  }
 
   std::vector<ImageUse> uses;
   const auto as_it_is = [](const Bounds& bounds) { return bounds; };

@@ -161,6 +161,7 @@ class GpuScene {
   // Scale 0 where index is -1.
   const LoadedLightmap& lightmap(std::int32_t index) const;
   const GpuSharpLight& sharp_light() const { return sharp_light_; }
+  const gpu::Texture2d& sky_map() const { return sky_map_; }  // Pack::sky_map, or none
   const gpu::Texture2d& reflectance_tables() const { return reflectance_tables_; }
   // Whether a reflector's maps are there, or will be once bring_maps() is called. Errors of images.
   Result<bool> may_show_maps(const GpuReflector& reflector);
@@ -230,6 +231,7 @@ class GpuScene {
   gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;
   GpuSharpLight sharp_light_;
+  gpu::Texture2d sky_map_;
   std::map<std::tuple<std::int32_t, std::int32_t, int>, GpuKernel> kernels_;
   GpuMapMeshes map_meshes_;
   BakedLamps baked_;
