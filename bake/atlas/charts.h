@@ -21,7 +21,6 @@ struct ChartSet {
   std::vector<std::uint32_t> triangles;  // of the scene, chart by chart
   std::vector<Triangle2> points;         // by entry of `triangles`: metres in the chart, lowest corner (0, 0)
   bool one_texel = false;                // an artist's: all charts have the same texel, along both axes
-  double area_m2 = 0;                    // with one_texel: of all charts
   double texel_m = 0;                    // asked for; 0: what eyes want
 };
 

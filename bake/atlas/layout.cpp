@@ -3,7 +3,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "bake/atlas/surface_mesh.h"
+#include "bake/atlas/chart_turn.h"
 #include "bake/jobs/parallel.h"
 
 namespace oriel {
@@ -44,43 +44,6 @@ struct Frame {
   DVec2 to_texels(const DVec2& metres) const { return {metres.x * x.scale + x.offset, metres.y * y.scale + y.offset}; }
 };
 
-// By how much a chart's normals turn from one end of each of its axes to the other, radians: of the linear function of
-// the position that fits them best (least squares over the area), which is less than all where they turn by more than
-// half a circle.
-DVec2 turn_of(const Scene& scene, const ChartSet& set, const Chart& chart) {
-  double area = 0;
-  DVec2 middle(0);
-  DVec3 mean(0);
-  std::vector<TriangleFrame> frames;
-  const auto centre = [&](std::uint32_t i) { return (set.points[i][0] + set.points[i][1] + set.points[i][2]) / 3.0; };
-  for (std::uint32_t i = chart.first; i < chart.first + chart.count; ++i) {
-    const TriangleFrame f = frames.emplace_back(triangle_frame(scene, set.triangles[i]));
-    area += f.area;
-    middle += f.area * centre(i);
-    mean += f.area * f.normal;
-  }
-  if (!(area > 0)) return DVec2(0);
-  middle /= area;
-  mean /= area;
-  double xx = 0, xy = 0, yy = 0;
-  DVec3 nx(0), ny(0);
-  for (std::uint32_t k = 0; k < chart.count; ++k) {
-    const DVec2 p = centre(chart.first + k) - middle;
-    const DVec3 n = frames[k].area * (frames[k].normal - mean);
-    xx += frames[k].area * p.x * p.x, xy += frames[k].area * p.x * p.y, yy += frames[k].area * p.y * p.y;
-    nx += n * p.x, ny += n * p.y;
-  }
-  // Triangles in a row tell of one axis only, and of the other nothing but rounding.
-  constexpr double kSpread = 1e-3;
-  const bool along_x = xx > kSpread * area * chart.size.x * chart.size.x,
-             along_y = yy > kSpread * area * chart.size.y * chart.size.y;
-  const double determinant = xx * yy - xy * xy;
-  if (!along_x || !along_y || !(determinant > kSpread * xx * yy))
-    return {along_x ? glm::length(nx) / xx * chart.size.x : 0, along_y ? glm::length(ny) / yy * chart.size.y : 0};
-  return {glm::length(nx * yy - ny * xy) / determinant * chart.size.x,
-          glm::length(ny * xx - nx * xy) / determinant * chart.size.y};
-}
-
 // The texels that a triangle touches, or would if each corner were moved by `slack`.
 void draw(const Triangle2& t, double slack, TexelMask& mask) {
   const ConvexPolygon whole(t);
@@ -115,16 +78,11 @@ class Layout {
  public:
   Layout(const Scene& scene, std::span<const ChartSet> sets, const LayoutOptions& options, Context& context)
       : options_(options), context_(context), inset_(options.side * 0x1p-24) {
-    for (const ChartSet& set : sets) {
-      const std::size_t first = charts_.size();
-      for (const Chart& chart : set.charts)
-        charts_.push_back({&set, &chart, turn_of(scene, set, chart), own_texel(set, chart)});
-      if (set.one_texel) share_turns(std::span(charts_).subspan(first));
-    }
-    if (options.demand != nullptr) {
-      std::vector<ChartTexel*> own = own_texels();
-      even_out(own);
-    }
+    std::size_t texels = 0;
+    for (const ChartSet& set : sets) texels += set.one_texel ? 1 : set.charts.size();
+    texels_.reserve(texels);  // entries point there
+    for (const ChartSet& set : sets) add(scene, set);
+    if (options.demand != nullptr) even_out(free_);
   }
 
   Status pack() { return options_.one_page ? pack_one_page() : pack_at(options_.texel_m); }
@@ -136,9 +94,57 @@ class Layout {
   struct Entry {
     const ChartSet* set;
     const Chart* chart;
-    DVec2 turn;      // turn_of
-    ChartTexel own;  // that eyes want
+    DVec2 turn;        // turn_of
+    double area_m2;    // its own
+    double longest_m;  // of what shares its texel
+    ChartTexel* own;   // that eyes want, or the set asks for
   };
+
+  void add(const Scene& scene, const ChartSet& set) {
+    const std::span triangles(set.triangles);
+    const std::size_t first = charts_.size();
+    double area = 0, longest = 0;
+    for (const Chart& chart : set.charts) {
+      charts_.push_back({&set, &chart, turn_of(scene, set, chart), area_of(set, chart), chart.size.x, nullptr});
+      area += charts_.back().area_m2;
+      longest = std::max(longest, chart.size.x);
+    }
+    const std::span added = std::span(charts_).subspan(first);
+    for (Entry& e : added) {
+      if (set.one_texel)
+        e.longest_m = longest;
+      else
+        e.own = add_texel(set, triangles.subspan(e.chart->first, e.chart->count), e.area_m2);
+    }
+    if (!set.one_texel || added.empty()) return;
+    ChartTexel* const all = add_texel(set, triangles, area);
+    for (Entry& e : added) e.own = all;
+    share_turns(added);
+  }
+
+  ChartTexel* add_texel(const ChartSet& set, std::span<const std::uint32_t> triangles, double area_m2) {
+    ChartTexel& texel = texels_.emplace_back(ChartTexel{.texel_m = options_.texel_m, .area_m2 = area_m2});
+    if (options_.demand != nullptr) texel = texel_for(*options_.demand, triangles, area_m2, options_.texel_m);
+    if (set.texel_m > 0 && !options_.one_page)
+      texel.texel_m = set.texel_m;
+    else
+      free_.push_back(&texel);
+    return &texel;
+  }
+
+  // Charts of one texel get that which makes as many texels as if each were drawn finer for its own turn.
+  static void share_turns(std::span<Entry> charts) {
+    ChartTexel& own = *charts[0].own;
+    double texels = 0;
+    for (Entry& e : charts) {
+      double more = e.area_m2;
+      for (int k = 0; k < 2; ++k)
+        if (e.turn[k] > 0) more *= std::clamp(e.turn[k] / kTurn * own.texel_m / e.chart->size[k], 1.0, kFinest);
+      texels += more;
+      e.turn = DVec2(0);
+    }
+    if (own.area_m2 > 0 && charts[0].set->texel_m == 0) own.texel_m /= std::sqrt(texels / own.area_m2);
+  }
 
   static double area_of(const ChartSet& set, const Chart& chart) {
     double sum = 0;
@@ -146,44 +152,13 @@ class Layout {
     return sum;
   }
 
-  // Charts of one texel get that which makes as many texels as if each were drawn finer for its own turn.
-  static void share_turns(std::span<Entry> charts) {
-    double texels = 0, area = 0;
-    for (Entry& e : charts) {
-      double more = e.own.area_m2;
-      for (int k = 0; k < 2; ++k)
-        if (e.turn[k] > 0) more *= std::clamp(e.turn[k] / kTurn * e.own.texel_m / e.chart->size[k], 1.0, kFinest);
-      texels += more, area += e.own.area_m2;
-      e.turn = DVec2(0);
-    }
-    for (Entry& e : charts) e.own.texel_m /= area > 0 ? std::sqrt(texels / area) : 1;
-  }
-
-  std::vector<ChartTexel*> own_texels() {
-    std::vector<ChartTexel*> own;
-    for (Entry& e : charts_) own.push_back(&e.own);
-    return own;
-  }
-
-  ChartTexel own_texel(const ChartSet& set, const Chart& chart) const {
-    const double area = area_of(set, chart);
-    if (options_.demand == nullptr) return {.texel_m = options_.texel_m, .area_m2 = area};
-    const std::span triangles(set.triangles);
-    if (!set.one_texel)
-      return texel_for(*options_.demand, triangles.subspan(chart.first, chart.count), area, options_.texel_m);
-    ChartTexel share = texel_for(*options_.demand, triangles, area, options_.texel_m);
-    if (set.area_m2 > 0) share.pixels *= area / set.area_m2;
-    return share;
-  }
-
-  // The texel of a chart: its own, or as much coarser as the page needs.
+  // The texel of a chart: its own, or at least a coarser one that is tried, or as much coarser as the page needs.
   double chart_texel(const Entry& e, double texel_m) const {
     const double own = options_.one_page            ? texel_m
-                       : e.set->texel_m > 0         ? e.set->texel_m
-                       : e.set->one_texel           ? e.own.texel_m
-                       : options_.demand != nullptr ? std::max(texel_m, e.own.texel_m)
-                                                    : texel_m;
-    return std::max(own, e.chart->size.x / (options_.side - 2 * inset_));  // x is the longer side
+                       : e.set->texel_m > 0         ? e.own->texel_m
+                       : texel_m > options_.texel_m ? std::max(texel_m, e.own->texel_m)
+                                                    : e.own->texel_m;
+    return std::max(own, e.longest_m / (options_.side - 2 * inset_));
   }
   Frame plain_frame(const Entry& e, double texel_m) const {
     const double texel = chart_texel(e, texel_m);
@@ -209,13 +184,13 @@ class Layout {
   }
   double surface_area() const {
     double sum = 0;
-    for (const Entry& e : charts_) sum += e.own.area_m2;
+    for (const Entry& e : charts_) sum += e.area_m2;
     return sum;
   }
   // Texels that charts cover, at least: their area.
   double least_texels(double texel_m) const {
     double sum = 0;
-    for (const Entry& e : charts_) sum += e.own.area_m2 / (chart_texel(e, texel_m) * chart_texel(e, texel_m));
+    for (const Entry& e : charts_) sum += e.area_m2 / (chart_texel(e, texel_m) * chart_texel(e, texel_m));
     return sum;
   }
   void fit_limits();
@@ -243,6 +218,8 @@ class Layout {
   const LayoutOptions& options_;
   Context& context_;
   double inset_;
+  std::vector<ChartTexel> texels_;
+  std::vector<ChartTexel*> free_;  // of those, what nobody asked for
   std::vector<Entry> charts_;
   double texel_m_ = 0;  // of what follows
   std::vector<TexelMask> masks_;
@@ -269,13 +246,12 @@ Status Layout::check_memory(double texel_m, double texels) const {
 }
 
 void Layout::fit_limits() {
-  std::vector<ChartTexel*> own = own_texels();
   const auto fit = [&](double most, const std::string& why) {
-    const std::size_t larger = coarsen(own, [&] { return kMargins * least_texels(texel_m_) > most; });
+    const std::size_t larger = coarsen(free_, [&] { return kMargins * least_texels(texel_m_) > most; });
     if (larger > 0)
       context_.warning("coarser-texels",
                        fmt::format("atlas: texels of {:.3g} m {}: {} of {} charts, those seen least, get larger ones",
-                                   texel_m_, why, larger, charts_.size()));
+                                   texel_m_, why, larger, free_.size()));
   };
   if (options_.memory_bytes > 0)
     fit(static_cast<double>(options_.memory_bytes) / kBakeTexelBytes,
@@ -347,7 +323,7 @@ void Layout::warn_coarsened() const {
   double worst = texel_m_;
   for (const Entry& e : charts_) {
     const double texel = chart_texel(e, texel_m_);
-    if (texel <= std::max(texel_m_, e.own.texel_m) * (1 + 1e-3)) continue;
+    if (texel <= (options_.one_page ? texel_m_ : e.own->texel_m) * (1 + 1e-3)) continue;
     ++count;
     worst = std::max(worst, texel);
   }
@@ -394,8 +370,7 @@ void Layout::measure(const Scene& scene, AtlasReport& report) const {
       sum.add(triangle_corners(scene, set->triangles[i]), {f.to_texels(t[0]), f.to_texels(t[1]), f.to_texels(t[2])});
     }
   }
-  for (const Entry& e : charts_)
-    report.unseen_m2 += options_.demand != nullptr && e.own.pixels == 0 ? e.own.area_m2 : 0;
+  for (const Entry& e : charts_) report.unseen_m2 += options_.demand != nullptr && e.own->pixels == 0 ? e.area_m2 : 0;
   report_stretch(sum, report);
 }
 

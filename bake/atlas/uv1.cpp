@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "bake/atlas/layout.h"
+#include "bake/jobs/parallel.h"
 #include "bake/jobs/warning_group.h"
 
 namespace oriel {
@@ -17,6 +18,7 @@ constexpr double kThinTexels = 1e-3;  // what rounding of float coordinates may 
 constexpr double kOverlapTexels2 = 1e-4;
 constexpr double kNegligibleShare = 1e-6;  // of a surface's area may lie in triangles without area on the page
 constexpr double kLineRatio = 1e-9;        // twice the area over the longest side squared: a line
+constexpr int kMostMargin = 8;             // texels: the third mip mixes what is so near
 constexpr int kMarginPage = 512;           // texels a side, on which charts are looked at for how near they lie
 constexpr double kTooSmall = 8;            // times smaller than the others' in each direction: a mistake of scale
 
@@ -256,22 +258,27 @@ class Checker {
     for (std::size_t i = 0; i < extents_.size(); ++i)
       if (metres[i] > most_metres && fill[i] * kTooSmall < usual)
         moved_.add(
-            fmt::format("{}: TEXCOORD_1 is {:.0f} times smaller than that of other surfaces; its charts get "
-                        "texels as theirs",
-                        name_of(scene_.surfaces[out_.own[i]]), usual / fill[i]));
+            fmt::format("{}: TEXCOORD_1 could be {:.0f} times larger within 0 to 1, as that of other surfaces is; its "
+                        "charts get texels as theirs",
+                        name_of(scene_.surfaces[out_.own[i]]), 1 / fill[i]));
   }
 
-  // Charts that lie so near together that filters mix them. Where they stay on one page it is their own, with all of
-  // them; else what each surface's would be.
+  // Charts so near together that filters mix them, on the one page that all share; else those that touch on what would
+  // be a page of each surface.
   void check_margins() {
-    if (out_.one_page) return check_margins(out_.own, kUnitSquare);
-    for (std::size_t i = 0; i < out_.own.size(); ++i) check_margins({out_.own[i]}, extents_[i]);
+    std::vector<std::string> found(out_.one_page ? 1 : out_.own.size());
+    // Stopped: the atlas tells.
+    (void)parallel_for(context_, "", found.size(), [&](std::size_t i) {
+      found[i] = out_.one_page ? margins(out_.own, kUnitSquare) : margins({&out_.own[i], 1}, extents_[i]);
+    });
+    for (const std::string& text : found)
+      if (!text.empty()) moved_.add(text);
   }
 
-  void check_margins(const std::vector<std::uint32_t>& surfaces, const Extent& extent) {
+  std::string margins(std::span<const std::uint32_t> surfaces, const Extent& extent) const {
     const int side = out_.one_page ? std::min(options_.resolution, options_.max_page) : kMarginPage;
-    ChartGrid grid(side / extent.side(), extent);
     std::vector<std::string> first;  // of each chart: its surface and first triangle
+    std::vector<std::pair<std::uint32_t, int>> charted;
     for (const std::uint32_t s : surfaces) {
       const Surface& surface = scene_.surfaces[s];
       const auto charts = static_cast<std::uint32_t>(first.size());
@@ -279,25 +286,27 @@ class Checker {
       for (std::uint32_t t = 0; t < surface.triangle_count; ++t) {
         if (charts + island[t] == first.size())
           first.push_back(surfaces.size() > 1 ? fmt::format("{} of '{}'", t, surface.name) : fmt::format("{}", t));
-        grid.draw(uv1_of(scene_, surface.first_triangle + t), static_cast<int>(charts + island[t]));
+        charted.emplace_back(surface.first_triangle + t, static_cast<int>(charts + island[t]));
       }
     }
-    const auto gaps = grid.nearer_than(options_.padding);
-    if (gaps.empty()) return;
+    if (first.size() < 2) return {};
+    ChartGrid grid(side / extent.side(), extent);
+    for (const auto& [triangle, chart] : charted) grid.draw(uv1_of(scene_, triangle), chart);
+    const int wanted = out_.one_page ? std::min(options_.padding, kMostMargin) : 1;
     std::string pairs;
     std::size_t said = 0;
-    for (const auto& [charts, gap] : gaps)
+    for (const auto& [charts, gap] : grid.nearer_than(wanted))
       if (++said <= WarningGroup::kLimit)
         pairs +=
             fmt::format("{}{} and {} at uv ({:.3f}, {:.3f}) by {}, mixed from mip {}", pairs.empty() ? "" : "; ",
                         first[static_cast<std::size_t>(charts.first)], first[static_cast<std::size_t>(charts.second)],
                         gap.uv.x, gap.uv.y, gap.texels, std::bit_width(static_cast<unsigned>(gap.texels) / 2));
+    if (said == 0) return {};
     if (said > WarningGroup::kLimit) pairs += fmt::format("; {} more pairs", said - WarningGroup::kLimit);
-    moved_.add(
-        fmt::format("{}: charts lie nearer together than {} texels of a page of {}², by their first triangles: "
-                    "{}{}",
-                    surfaces.size() > 1 ? "TEXCOORD_1" : name_of(scene_.surfaces[surfaces[0]]), options_.padding, side,
-                    pairs, out_.one_page ? "" : fmt::format(". They are packed {} apart", options_.padding)));
+    const std::string near = out_.one_page ? fmt::format("lie nearer together than {} texels", wanted) : "touch";
+    return fmt::format("{}: charts {} on a page of {}², by their first triangles: {}{}",
+                       surfaces.size() > 1 ? "TEXCOORD_1" : name_of(scene_.surfaces[surfaces[0]]), near, side, pairs,
+                       out_.one_page ? "" : fmt::format(". They are packed {} apart", options_.padding));
   }
 
   const Scene& scene_;
@@ -320,7 +329,6 @@ ChartSet own_charts(const Scene& scene, const Surface& surface) {
   const Extent extent = extent_of(scene, surface);
   ChartSet set;
   set.one_texel = true;
-  set.area_m2 = extent.world_m2;
   set.texel_m = static_cast<double>(surface.texel_m);
   std::vector<std::uint32_t> order(island.size());
   std::iota(order.begin(), order.end(), 0u);

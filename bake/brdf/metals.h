@@ -18,7 +18,7 @@ enum class Metal : std::int8_t { kNone = -1, kGold, kSilver, kCopper, kAluminium
 inline constexpr int kMetalCount = 6;
 
 struct MetalConstants {
-  const char* name;                 // as in extras.oriel_metal: "gold"
+  const char* name;                 // as of the key metal (object_keys.h): "gold"
   const char* symbol;               // "Au": accepted too
   std::array<ComplexIndex, 3> rgb;  // at 630, 532 and 465 nm
 };

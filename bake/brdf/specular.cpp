@@ -173,11 +173,6 @@ Vec3 specular_reflectance(const SpecularLobe& lobe, float cos_theta) {
   return glm::clamp(Vec3(fresnel * (single + DVec3(lobe.f0) * (1 - single))), Vec3(0), Vec3(1));
 }
 
-Vec2 split_albedo(const FresnelCurve& curve, float alpha, float cos_theta) {
-  const double single = single_albedo(alpha, cos_theta), weight = mean_weight(curve, alpha, cos_theta).r;
-  return Vec2(DVec2(1 - weight, weight) * single);
-}
-
 double ggx_scale(double alpha, double cos_theta) {
   return in_rows(alpha, cos_theta, &Compensation::scale);
 }

@@ -64,9 +64,6 @@ class ExactReflectance {
 // The same from tables that are made once: errors below 2e-3, but where a curve has a step at grazing angles (an index
 // within 1e-3 of 1).
 Vec3 specular_reflectance(const SpecularLobe& lobe, float cos_theta);
-// The split form after Karis 2013, for f0 from a texture: {scale, bias} of the single-scattering albedo E = f0 scale +
-// f90 bias of a curve without a metal. With compensation R = E (1 + f0 (1 / (scale + bias) - 1)).
-Vec2 split_albedo(const FresnelCurve& curve, float alpha, float cos_theta);
 // s of the GGX lobe.
 double ggx_scale(double alpha, double cos_theta);
 

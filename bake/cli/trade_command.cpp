@@ -3,7 +3,6 @@
 #include "bake/run/option_values.h"
 #include "formats/core/file.h"
 #include "formats/core/process.h"
-#include "formats/core/text.h"
 #include "trade/html.h"
 #include "trade/sweep.h"
 #include "trade/table.h"

@@ -258,7 +258,7 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   gltf::AccessorReader accessors(document, buffers, budget);
   ORIEL_TRY(const std::vector<gltf::LoadedMesh> meshes, gltf::load_meshes(document, buffers, accessors, context));
   ORIEL_TRY(std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
-  ORIEL_TRY_VOID(gltf::hand_down_keys(options.objects, document));
+  ORIEL_TRY_VOID(gltf::hand_down_keys(options.objects, roots, document));
   if (options.unit_m != 1) roots = {scale_document(options.unit_m, roots, document)};
   ORIEL_TRY(PosedNodes nodes, pose_nodes(document, roots));
   out.scene.materials = document.materials;

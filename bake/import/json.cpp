@@ -80,8 +80,8 @@ std::vector<std::string> JsonDocument::repairs() const {
   return lines;
 }
 
-JsonAt JsonAt::operator[](const char* key) const {
-  std::string path = path_.empty() ? std::string(key) : path_ + "." + key;
+JsonAt JsonAt::operator[](std::string_view key) const {
+  std::string path = path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
   if (!value_) return JsonAt(document_, nullptr, std::move(path));
   if (!value_->is_object()) {
     expected("an object");
@@ -100,10 +100,9 @@ JsonAt JsonAt::extension(const char* name) const {
   return (*this)["extensions"][name];
 }
 
-JsonAt JsonAt::extras() const {
-  const JsonAt extras = (*this)["extras"];
-  if (extras.present() && !extras.value_->is_object()) return JsonAt(document_, nullptr, extras.path_);
-  return extras;
+JsonAt JsonAt::object(std::string_view key) const {
+  const JsonAt member = (*this)[key];
+  return member.present() && !member.value_->is_object() ? JsonAt(document_, nullptr, member.path_) : member;
 }
 
 std::vector<std::string> JsonAt::keys() const {
@@ -178,8 +177,10 @@ std::string JsonAt::text(std::string fallback) const {
   return fallback;
 }
 
-std::string JsonAt::scalar_text() const {
-  return value_->is_string() ? name() : shown(*value_);
+std::optional<std::string> JsonAt::scalar_text() const {
+  if (value_ && value_->is_string()) return name();
+  if (value_ && (value_->is_boolean() || value_->is_number())) return value_->dump_ascii();
+  return std::nullopt;
 }
 
 std::string JsonAt::name() const {

@@ -57,13 +57,13 @@ class JsonAt {
   const std::string& path() const { return path_; }
 
   // A member of an object; it is an error if this is something else than an object.
-  JsonAt operator[](const char* key) const;
+  JsonAt operator[](std::string_view key) const;
   // The same, and it is an error if it is absent.
   JsonAt need(const char* key) const;
   // extensions[name], absent where either is.
   JsonAt extension(const char* name) const;
-  // extras, absent where they are no object: they are anybody's.
-  JsonAt extras() const;
+  // A member that is an object, absent where it is something else: extras are anybody's.
+  JsonAt object(std::string_view key) const;
   std::vector<std::string> keys() const;
 
   // Elements of an array; 0 where absent.
@@ -77,8 +77,8 @@ class JsonAt {
   int index(std::size_t count) const;
   bool boolean(bool fallback) const;
   std::string text(std::string fallback = {}) const;
-  // A boolean, number or string as text, in one line; of other values what they are.
-  std::string scalar_text() const;
+  // A boolean, number or string as text, in one line.
+  std::optional<std::string> scalar_text() const;
   // A text fit to be printed in one line: control characters become question marks.
   std::string name() const;
   // Exactly values.size() numbers; untouched where absent.

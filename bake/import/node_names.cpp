@@ -17,31 +17,29 @@ std::string path_of(const Document& document, std::uint32_t node) {
   return path;
 }
 
-Status hand_down_keys(std::span<const ObjectRule> rules, Document& document) {
+Status hand_down_keys(std::span<const ObjectRule> rules, std::span<const std::uint32_t> roots, Document& document) {
+  std::vector<std::uint32_t> nodes(roots.begin(), roots.end());  // of the scene, parents first
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const std::uint32_t child : document.nodes[nodes[i]].children) nodes.push_back(child);
+  std::vector<std::string> names, paths;
+  for (const std::uint32_t n : nodes) names.push_back(document.nodes[n].name);
+  if (!rules.empty())
+    for (const std::uint32_t n : nodes) paths.push_back(path_of(document, n));
   for (const ObjectRule& rule : rules) {
     bool found = false;
-    std::vector<std::string> names;
-    for (std::uint32_t n = 0; n < document.nodes.size(); ++n) {
-      names.push_back(document.nodes[n].name);
-      if (!fits_pattern(rule.nodes, names.back()) && !fits_pattern(rule.nodes, path_of(document, n))) continue;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!fits_pattern(rule.nodes, names[i]) && !fits_pattern(rule.nodes, paths[i])) continue;
       found = true;
-      for (const auto& [key, value] : rule.keys) ORIEL_TRY_VOID(set_object_key(key, value, document.nodes[n].keys));
+      for (const auto& [key, value] : rule.keys)
+        ORIEL_TRY_VOID(set_object_key(key, value, document.nodes[nodes[i]].keys));
     }
     if (!found)
       return fail(ErrorCode::kUsage, "--object", "found the node \"{}\", expected one of the scene's: {}", rule.nodes,
                   names_like(rule.nodes, names));
   }
-  std::vector<std::uint32_t> waiting;
-  for (std::uint32_t n = 0; n < document.nodes.size(); ++n)
-    if (document.nodes[n].parent < 0) waiting.push_back(n);
-  while (!waiting.empty()) {
-    const NodeDesc& node = document.nodes[waiting.back()];
-    waiting.pop_back();
-    for (const std::uint32_t child : node.children) {
-      document.nodes[child].keys.inherit(node.keys);
-      waiting.push_back(child);
-    }
-  }
+  for (const std::uint32_t n : nodes)
+    for (const std::uint32_t child : document.nodes[n].children)
+      document.nodes[child].keys.inherit(document.nodes[n].keys);
   return {};
 }
 

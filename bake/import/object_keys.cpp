@@ -71,7 +71,8 @@ Status set_object_key(std::string_view key, const std::string& value, ObjectKeys
 
 Result<std::vector<ObjectRule>> parse_object_rules(const std::string& text) {
   std::vector<ObjectRule> rules;
-  if (text.ends_with(".json")) {
+  const bool file = text.ends_with(".json");
+  if (file) {
     ORIEL_TRY(const Bytes bytes, read_file(text));
     ORIEL_TRY(const Json json, Json::parse(bytes, text));
     for (const auto& [nodes, keys] : json.items()) {
@@ -79,9 +80,10 @@ Result<std::vector<ObjectRule>> parse_object_rules(const std::string& text) {
       for (const auto& [key, value] : keys.items())
         rule.keys.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump_ascii());
     }
-    if (rules.empty()) return invalid(text, "found no object, expected {{\"NODE\": {{\"KEY\": VALUE, …}}, …}}");
+    if (rules.empty() || std::ranges::any_of(rules, [](const ObjectRule& rule) { return rule.keys.empty(); }))
+      return invalid(text, "found none, or a node without keys; expected {{\"NODE\": {{\"KEY\": VALUE, …}}, …}}");
   } else {
-    const std::size_t colon = text.rfind(':');
+    const std::size_t colon = text.substr(0, text.find('=')).rfind(':');
     if (colon == 0 || colon == std::string::npos)
       return fail(ErrorCode::kUsage, "", "found '{}', expected NODE:KEY=VALUE,… or a .json file", text);
     ObjectRule& rule = rules.emplace_back(ObjectRule{text.substr(0, colon), {}});
@@ -94,7 +96,9 @@ Result<std::vector<ObjectRule>> parse_object_rules(const std::string& text) {
   }
   ObjectKeys tried;
   for (const ObjectRule& rule : rules)
-    for (const auto& [key, value] : rule.keys) ORIEL_TRY_VOID(set_object_key(key, value, tried));
+    for (const auto& [key, value] : rule.keys)
+      if (const auto set = set_object_key(key, value, tried); !set)
+        return fail(ErrorCode::kUsage, file ? text : "", "\"{}\", {}: {}", rule.nodes, key, set.error().message);
   return rules;
 }
 

@@ -75,6 +75,8 @@ class MaterialParser {
     parse_coat(value, m);
     parse_anisotropy(value, m);
     const ObjectKeys keys = parse_object_keys(value);
+    if (keys.mover || keys.exclude || keys.texel_m || keys.light_group)
+      value["extras"].repaired("mover, exclude, texel, density and light_group are a node's; they are ignored");
     m.metal = keys.metal;
     m.reflections = keys.reflections.value_or(true);
     m.double_sided = keys.two_sided.value_or(value["doubleSided"].boolean(false));

@@ -112,8 +112,10 @@ void parse_transform(const JsonAt& value, NodeDesc& node) {
 
 // Half of extras.oriel.angular_diameter_deg: how large a directional light appears.
 float angular_radius(const JsonAt& value, double fallback) {
-  return static_cast<float>(value.extras()["oriel"]["angular_diameter_deg"].number(fallback * 360 / kPiD, 0, 180) *
-                            kPiD / 360);
+  constexpr const char* kKey = "angular_diameter_deg";
+  const JsonAt extras = value.object("extras"), nested = extras.object("oriel")[kKey];
+  const JsonAt given = nested.present() ? nested : extras[std::string("oriel_") + kKey];
+  return static_cast<float>(given.number(fallback * 360 / kPiD, 0, 180) * kPiD / 360);
 }
 
 NodeDesc parse_node(const JsonAt& value, std::size_t count, const Document& document) {
@@ -313,18 +315,19 @@ void note_deformations(Document& document) {
 
 void set_key(const std::string& key, const JsonAt& value, ObjectKeys& keys) {
   if (key == "angular_diameter_deg") return;
-  if (const auto set = set_object_key(key, value.scalar_text(), keys); !set)
-    value.repaired(set.error().message + "; it is ignored");
+  const auto text = value.scalar_text();
+  if (!text) return value.repaired("found no number, text, true or false; it is ignored");
+  if (const auto set = set_object_key(key, *text, keys); !set) value.repaired(set.error().message + "; it is ignored");
 }
 
 }  // namespace
 
 ObjectKeys parse_object_keys(const JsonAt& value) {
   ObjectKeys keys;
-  const JsonAt extras = value.extras(), own = extras["oriel"];
-  for (const std::string& key : own.keys()) set_key(key, own[key.c_str()], keys);
+  const JsonAt extras = value.object("extras"), own = extras.object("oriel");
+  for (const std::string& key : own.keys()) set_key(key, own[key], keys);
   for (const std::string& key : extras.keys())
-    if (key.starts_with("oriel_") || key.starts_with("oriel.")) set_key(key.substr(6), extras[key.c_str()], keys);
+    if (key.starts_with("oriel_") || key.starts_with("oriel.")) set_key(key.substr(6), extras[key], keys);
   return keys;
 }
 

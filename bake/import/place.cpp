@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bake/import/deform.h"
+#include "bake/import/material_variants.h"
 #include "bake/import/node_names.h"
 #include "bake/import/simplify.h"
 #include "bake/jobs/warning_group.h"
@@ -312,34 +313,6 @@ std::uint32_t material_of(const TriangleMesh& mesh, std::optional<std::uint32_t>
   return *default_material;
 }
 
-// Materials as nodes want them (ObjectKeys): copies of their own, shared between nodes that ask for the same.
-class MaterialVariants {
- public:
-  explicit MaterialVariants(Scene& scene) : scene_(scene) {}
-
-  std::uint32_t of(std::uint32_t material, const ObjectKeys& keys) {
-    const SceneMaterial& from = scene_.materials[material];
-    const Metal metal = keys.metal == Metal::kNone ? from.metal : keys.metal;
-    const bool two_sided = keys.two_sided.value_or(from.double_sided),
-               reflections = keys.reflections.value_or(from.reflections);
-    if (metal == from.metal && two_sided == from.double_sided && reflections == from.reflections) return material;
-    const auto [found, is_new] =
-        copies_.try_emplace({material, metal, two_sided, reflections}, scene_.materials.size());
-    if (!is_new) return found->second;
-    SceneMaterial copy = from;
-    if (metal != from.metal) copy.name += fmt::format(" ({})", constants_of(metal).name);
-    if (two_sided != from.double_sided) copy.name += two_sided ? " (two-sided)" : " (one-sided)";
-    if (reflections != from.reflections) copy.name += reflections ? " (with reflections)" : " (without reflections)";
-    copy.metal = metal, copy.double_sided = two_sided, copy.reflections = reflections;
-    scene_.materials.push_back(std::move(copy));
-    return found->second;
-  }
-
- private:
-  Scene& scene_;
-  std::map<std::tuple<std::uint32_t, Metal, bool, bool>, std::uint32_t> copies_;
-};
-
 }  // namespace
 
 Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uint32_t> roots) {
@@ -351,12 +324,13 @@ Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uin
     NodePose pose = waiting.back();  // holds the parent's matrix so far
     waiting.pop_back();
     const gltf::NodeDesc& node = document.nodes[pose.node];
-    if (node.hidden || node.keys.exclude.value_or(false)) continue;
+    if (node.hidden) continue;
     pose.world_from_node = pose.world_from_node * node.matrix;
     if (!finite(pose.world_from_node))
       return invalid(node_path(document, pose.node), "found a world transform that overflows, expected a finite one");
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       waiting.push_back({*child, pose.world_from_node});
+    if (node.keys.exclude.value_or(false)) continue;  // what is below it may say otherwise
     nodes.pose_of[pose.node] = static_cast<std::int32_t>(nodes.poses.size());
     nodes.poses.push_back(pose);
   }

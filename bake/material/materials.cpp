@@ -140,7 +140,6 @@ FresnelKey fresnel_key(const MaterialSummary& s) {
 struct Needs {
   std::vector<float> alphas;
   std::vector<std::size_t> fresnel_owner;  // the first material of each need
-  bool f0_varies = false;
 };
 
 Needs find_needs(const Scene& scene, MaterialMaps& maps, const MaterialOptions& options) {
@@ -154,7 +153,6 @@ Needs find_needs(const Scene& scene, MaterialMaps& maps, const MaterialOptions& 
     const auto [fresnel, is_new] = fresnel_of.try_emplace(fresnel_key(s), needs.fresnel_owner.size());
     if (is_new) needs.fresnel_owner.push_back(m);
     maps.fresnel_map[m] = fresnel->second;
-    needs.f0_varies |= is_textured(scene, scene.materials[m]);
     const bool highlights = shows_highlights(reflectance_at_60_deg(s.f0, s.f90, s.curve), s.alpha);
     if (!scene.materials[m].reflections || (s.roughness > options.max_roughness && !highlights)) continue;
     maps.kernel[m] = static_cast<std::int32_t>(needs.alphas.size());
@@ -222,7 +220,6 @@ Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& o
   for (std::int32_t& kernel : maps.kernel)
     if (kernel >= 0) kernel = static_cast<std::int32_t>(widths.of[static_cast<std::size_t>(kernel)]);
   keep_shared(std::move(fresnel_maps), options.error, maps);
-  if (needs.f0_varies) maps.split = make_split_reflectance();
   return maps;
 }
 

@@ -49,7 +49,6 @@ struct MaterialMaps {
   std::vector<std::int32_t> fresnel_map;   // into fresnel_maps; -1: no specular lobe (f0 = f90 = 0), or unlit
   std::vector<BrdfKernel> kernels;
   std::vector<FresnelMap> fresnel_maps;
-  SplitReflectance split;  // where the f0 of some reflecting material varies over its surface
 };
 
 // Materials whose needs agree to within options.error share a kernel and a Fresnel map (share.h). Error kStopped only.

@@ -81,24 +81,4 @@ Vec3 fresnel_lookup(const FresnelMap& map, float cos_theta) {
   return lookup_by_cosine(map.table, cos_theta);
 }
 
-std::vector<Vec2> make_split_table(const FresnelCurve& curve, float alpha, std::uint32_t entries) {
-  std::vector<Vec2> table;
-  const std::uint32_t n = std::max(entries, 2u);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const float root = static_cast<float>(i) / static_cast<float>(n - 1);
-    table.push_back(split_albedo(curve, unit(alpha), root * root));
-  }
-  return table;
-}
-
-SplitReflectance make_split_reflectance(std::uint32_t angles, std::uint32_t roughnesses) {
-  SplitReflectance split{std::max(angles, 2u), std::max(roughnesses, 2u), {}};
-  for (std::uint32_t j = 0; j < split.roughnesses; ++j) {
-    const float roughness = static_cast<float>(j) / static_cast<float>(split.roughnesses - 1);
-    for (const Vec2& entry : make_split_table({}, roughness * roughness, split.angles))
-      split.table.push_back(glm::clamp(entry, Vec2(0), Vec2(1, 1 - entry.x)));
-  }
-  return split;
-}
-
 }  // namespace oriel

@@ -25,12 +25,6 @@ FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOption
 // empty table.
 Vec3 fresnel_lookup(const FresnelMap& map, float cos_theta);
 
-// The split form as a table, entries as FresnelMap's: {scale, bias}, see split_albedo(). For materials whose f0 is a
-// texture; error below 5e-3 beside the exact R.
-std::vector<Vec2> make_split_table(const FresnelCurve& curve, float alpha, std::uint32_t entries = 129);
-// The split form with Schlick's curve for every roughness.
-SplitReflectance make_split_reflectance(std::uint32_t angles = 33, std::uint32_t roughnesses = 33);
-
 // R per channel of the layers, exact: what the maps approximate.
 class ExactLayers {
  public:

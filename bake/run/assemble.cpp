@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "bake/scene/sky.h"
+
 namespace oriel {
 namespace {
 
@@ -173,7 +174,6 @@ void assemble_scene(const Scene& scene, MaterialMaps maps, AssembledMesh mesh, P
   pack.mesh = std::move(mesh.mesh);
   pack.kernels = std::move(maps.kernels);
   pack.fresnel_maps = std::move(maps.fresnel_maps);
-  pack.split_reflectance = std::move(maps.split);
   pack.cameras = scene.cameras;
   pack.paths = scene.paths;
   pack.sky = scene.sky;

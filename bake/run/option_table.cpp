@@ -206,12 +206,6 @@ std::vector<Option> light_options(ImportOptions& import) {
 
 std::vector<Option> mover_options(ImportOptions& import) {
   return {
-      {"--object", kScene,
-       "What nodes of that name or path (with * for any letters), and all below them, are: mover, exclude, two_sided, "
-       "reflections=false, texel=2cm, density=50 (texels a metre), light_group=NAME, metal=NAME. Over what "
-       "extras.oriel "
-       "in the file says. FILE.json names many. May be repeated",
-       objects(import.objects), Use::kEveryday, "objects", "scenes.md#control-by-object"},
       {"--move", kMovers,
        "Puts a mover, or the middle of what shines of a node, there (world metres) and turns it about up by degrees, "
        "before anything is computed. May be repeated",
@@ -220,6 +214,10 @@ std::vector<Option> mover_options(ImportOptions& import) {
 
 std::vector<Option> scene_options(ImportOptions& import, bool& reproducible) {
   return {
+      {"--object", kScene,
+       "What nodes of that name or path (with * for any letters), and all below them, are: mover, exclude, texel=2cm … "
+       "Over what the file says. May be repeated",
+       objects(import.objects), Use::kEveryday, "objects", "scenes.md#control-by-object"},
       {"--scene", kScene, "Which scene of the file; -1: its default", number(import.scene, -1, 1e9), Use::kRare,
        "scene_index"},
       {"--double-sided", kScene,

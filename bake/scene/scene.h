@@ -59,7 +59,8 @@ struct SceneMaterial {
   float anisotropy = 0;                // KHR_materials_anisotropy: strength, [0,1]
   float anisotropy_rotation_rad = 0;   // of the wide direction from the tangent, counter-clockwise
   TextureSlot anisotropy_texture;      // RG: 2 v - 1 the wide direction in the tangent frame, B: multiplies anisotropy
-  Metal metal = Metal::kNone;          // extras.oriel_metal: all metal, with measured constants instead of base_color
+  Metal metal =
+      Metal::kNone;  // the key metal (object_keys.h): all metal, with measured constants instead of base_color
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;

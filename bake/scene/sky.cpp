@@ -43,9 +43,11 @@ Vec3 sky_radiance(const Scene& scene, const Vec3& direction) {
 SkyMap make_sky_map(const Scene& scene) {
   const SkyImage& image = scene.sky_image;
   SkyMap map;
-  if (image.texels.empty()) return map;
-  map.width = std::min(image.width, 2048u), map.height = std::min(image.height, 1024u);
-  const std::uint32_t steps = (image.width + map.width - 1) / map.width;  // within a texel, each way
+  if (image.texels.empty() || scene.day.lit() > 1) return map;
+  map.width = std::min(image.width, SkyMap::kMostWidth), map.height = std::min(image.height, SkyMap::kMostHeight);
+  map.texels.reserve(std::size_t{map.width} * map.height);
+  // Within a texel, each way: of 16384 texels every second one.
+  const std::uint32_t steps = std::clamp(std::max(image.width / map.width, image.height / map.height), 1u, 4u);
   for (std::uint32_t y = 0; y < map.height; ++y)
     for (std::uint32_t x = 0; x < map.width; ++x) {
       Vec3 sum(0);

@@ -37,7 +37,7 @@ inline std::uint32_t sky_owner(const Scene& scene) {
 // Mean over the sphere of what sky_radiance interpolates, cd/m².
 Vec3 sky_mean(const SkyImage& image);
 
-// The image for a pack, at most 2048 texels wide.
+// The image for a pack; none where it is of several hours, each with another.
 SkyMap make_sky_map(const Scene& scene);
 
 // The rows of the grid that has the texel centres as its corners: row k lies between v = (k - ½)/height and (k + ½)

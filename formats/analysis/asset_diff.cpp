@@ -60,7 +60,9 @@ void add_materials(const Pack& pack, AssetList& list) {
 }
 
 void add_lamps(const Pack& pack, AssetList& list) {
-  list.add("light", "sky", {{"radiance", numbers_of(pack.sky)}});
+  DVec3 towards(0);  // another map with this mean differs
+  for (std::size_t i = 0; const Vec3& texel : pack.sky_map.texels) towards += static_cast<double>(++i) * DVec3(texel);
+  list.add("light", "sky", {{"radiance", numbers_of(pack.sky)}, {"map", numbers_of(towards)}});
   for (std::size_t i = 0; const SharpLamp& l : pack.sharp_light.lamps)
     list.add("lamp", std::to_string(i++),
              {{"position", numbers_of(DVec3(l.position) + pack.mesh.origin)},

@@ -30,12 +30,4 @@ inline Vec3 lookup_by_cosine(std::span<const Vec3> table, float cos_theta) {
   return glm::mix(table[i], table[std::min(i + 1, last)], at - static_cast<float>(i));
 }
 
-// R of any f0 by single scattering: f0 * scale + f90 * bias (Karis 2013), for the GGX lobe with Schlick's Fresnel;
-// times 1 + f0 (1 / (scale + bias) - 1) what multiple scattering gives back is in it. Entry (i, j) is at cosθ = (i /
-// (angles-1))² and roughness √α = j / (roughnesses-1), i runs fastest. scale + bias <= 1.
-struct SplitReflectance {
-  std::uint32_t angles = 0, roughnesses = 0;  // at least 2 each; 0: there is none
-  std::vector<Vec2> table;                    // {scale, bias}, [0,1]
-};
-
 }  // namespace oriel

@@ -13,6 +13,8 @@ namespace oriel {
 struct SkyMap {
   std::uint32_t width = 0, height = 0;  // 0: it is even
   std::vector<Vec3> texels;             // >= 0
+
+  static constexpr std::uint32_t kMostWidth = 2048, kMostHeight = 1024;
 };
 
 }  // namespace oriel

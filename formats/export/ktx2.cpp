@@ -13,7 +13,7 @@ constexpr std::uint8_t kIdentifier[] = {0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB
 constexpr std::uint32_t kHeaderBytes = 80, kLevelIndexBytes = 24;
 // Of the Khronos Data Format Specification.
 constexpr std::uint8_t kRgbsda = 1, kBc6h = 133, kBt709 = 1, kLinear = 1;
-constexpr std::uint8_t kExponent = 0x20, kSigned = 0x40, kFloat = 0x80;
+constexpr std::uint8_t kExponent = 0x20, kFloat = 0x80;
 
 struct Sample {
   std::uint16_t bit;
@@ -28,17 +28,8 @@ struct Coding {
 };
 
 Coding coding_of(TexelCoding coding) {
-  const auto one = std::bit_cast<std::uint32_t>(1.0f), minus_one = std::bit_cast<std::uint32_t>(-1.0f);
-  switch (coding) {
-    case TexelCoding::kRg16f: {
-      constexpr std::uint8_t kBits = kSigned | kFloat;
-      return {83, 2, kRgbsda, 1, 4, {{0, 16, 0 | kBits, minus_one, one}, {16, 16, 1 | kBits, minus_one, one}}};
-    }
-    case TexelCoding::kBc6h:
-      return {131, 1, kBc6h, 4, 16, {{0, 128, kFloat, 0, one}}};
-    default:
-      break;
-  }
+  if (coding == TexelCoding::kBc6h)
+    return {131, 1, kBc6h, 4, 16, {{0, 128, kFloat, 0, std::bit_cast<std::uint32_t>(1.0f)}}};
   // Mantissas R, G, B of 9 bits at 0, 9, 18, each with the shared exponent at 27; the range of samples as the
   // specification gives it for this very format.
   Coding out{123, 4, kRgbsda, 1, 4, {}};

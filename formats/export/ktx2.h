@@ -6,8 +6,8 @@
 
 namespace oriel {
 
-// kRgb9e5: a u32 a texel (formats/core/half.h); kBc6h: blocks (formats/image); kRg16f: two halves a texel.
-enum class TexelCoding { kRgb9e5, kBc6h, kRg16f };
+// kRgb9e5: a u32 a texel (formats/core/half.h); kBc6h: blocks (formats/image).
+enum class TexelCoding { kRgb9e5, kBc6h };
 
 struct Ktx2Texture {
   TexelCoding coding = TexelCoding::kRgb9e5;

@@ -52,17 +52,6 @@ std::vector<Vec3> filled(const SurroundMap& map) {
   return light;
 }
 
-// Bilinear in the table's own axes: cosθ = (i / (angles - 1))².
-Vec2 split_at(const SplitReflectance& split, float cos_theta, float roughness) {
-  const Vec2 last(split.angles - 1, split.roughnesses - 1);
-  const Vec2 at = Vec2(std::sqrt(cos_theta), roughness) * last;
-  const Vec2 low = glm::min(glm::floor(at), last - 1.0f), f = at - low;
-  const auto entry = [&](float x, float y) {
-    return split.table[static_cast<std::size_t>(low.y + y) * split.angles + static_cast<std::size_t>(low.x + x)];
-  };
-  return glm::mix(glm::mix(entry(0, 0), entry(1, 0), f.x), glm::mix(entry(0, 1), entry(1, 1), f.x), f.y);
-}
-
 }  // namespace
 
 Vec3 cube_direction(std::uint32_t face, const Vec2& at) {
@@ -113,16 +102,6 @@ ProbeCube probe_cube(const SurroundMap& map, TexelCoding coding) {
   out.texture = {coding, side, side, 6, level.take()};
   out.rounding = count > 0 ? std::sqrt(squares / count) : 0;
   return out;
-}
-
-Ktx2Texture dfg_texture(const SplitReflectance& split, std::uint32_t side) {
-  ByteWriter texels;
-  for (std::uint32_t i = 0; i < side * side; ++i) {
-    const Vec2 at = (Vec2(i % side, i / side) + 0.5f) / static_cast<float>(side);
-    const Vec2 value = split_at(split, at.x, at.y);
-    for (int c = 0; c < 2; ++c) texels.put(half_from_float(value[c]));
-  }
-  return {TexelCoding::kRg16f, side, side, 1, texels.take()};
 }
 
 }  // namespace oriel

@@ -1,7 +1,6 @@
-// What curved reflectors see as cubes, and the split-sum table, for engines that light by probes.
+// What curved reflectors see as cubes, for engines that light by probes.
 #pragma once
 
-#include "formats/assets/fresnel_map.h"
 #include "formats/assets/surround_map.h"
 #include "formats/export/ktx2.h"
 
@@ -19,9 +18,5 @@ struct ProbeCube {
   double rounding = 0;  // root mean square over channels, of the texel's largest
 };
 ProbeCube probe_cube(const SurroundMap& map, TexelCoding coding);
-
-// {scale, bias} as RG16F, of SplitReflectance resampled to what engines ask for: x is cosθ and y perceptual roughness
-// √α, both at (i + ½) / side.
-Ktx2Texture dfg_texture(const SplitReflectance& split, std::uint32_t side);
 
 }  // namespace oriel

@@ -68,7 +68,7 @@ struct ExportOptions {
 };
 
 // The scene as binary glTF with its light as emissive textures or with EXR and KTX2 files beside it; as probes a folder
-// of cubes and the split-sum table (formats/export).
+// of cubes (formats/export).
 int export_pack(const std::filesystem::path& path, const std::filesystem::path& output, const ExportOptions& options);
 
 struct WebRequest {

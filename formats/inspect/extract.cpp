@@ -107,6 +107,15 @@ Status Extraction::walk_grids() {
   return {};
 }
 
+Status Extraction::sky_map() {
+  const SkyMap& sky = pack_.sky_map;
+  if (sky.width == 0) return {};
+  Json entry{{"kind", "sky_map"}, {"sky_cd_m2", {pack_.sky.r, pack_.sky.g, pack_.sky.b}}};
+  ORIEL_TRY_VOID(exr(entry, "radiance", "sky_map.exr", rgb_image(sky.width, sky.height, sky.texels), "sky_cd_m2"));
+  index_.push_back(std::move(entry));
+  return {};
+}
+
 Status Extraction::finish(const std::filesystem::path& source) {
   const Json out{{"schema", kJsonSchema}, {"source", source.filename().string()}, {"entries", index_}};
   ORIEL_TRY_VOID(write_file_atomically(folder_ / "index.json", bytes_of_text(out.dump(2) + "\n")));
@@ -123,7 +132,7 @@ struct Kind {
 constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},         {"radiance_map", &Extraction::radiance_maps},
                            {"surround_map", &Extraction::surround_maps}, {"brdf_kernel", &Extraction::kernels},
                            {"fresnel_map", &Extraction::fresnel_maps},   {"texture", &Extraction::textures},
-                           {"walk_grid", &Extraction::walk_grids}};
+                           {"walk_grid", &Extraction::walk_grids},       {"sky_map", &Extraction::sky_map}};
 
 }  // namespace
 

@@ -79,17 +79,6 @@ Status Extraction::fresnel_maps() {
     ORIEL_TRY_VOID(csv(entry, "table_csv", name + "_table.csv", text));
     index_.push_back(std::move(entry));
   }
-  return split_reflectance();
-}
-
-Status Extraction::split_reflectance() {
-  const SplitReflectance& split = pack_.split_reflectance;
-  if (split.table.empty()) return {};
-  Json entry{{"kind", "split_reflectance"}, {"angles", split.angles}, {"roughnesses", split.roughnesses}};
-  std::vector<Vec3> values;
-  for (const Vec2& v : split.table) values.emplace_back(v, 0);
-  ORIEL_TRY_VOID(exr(entry, "table", "split_reflectance.exr", rgb_image(split.angles, split.roughnesses, values), "1"));
-  index_.push_back(std::move(entry));
   return {};
 }
 

@@ -22,6 +22,7 @@ class Extraction {
   Status lightmaps();
   Status radiance_maps();
   Status surround_maps();
+  Status sky_map();
   Status kernels();
   Status fresnel_maps();
   Status textures();
@@ -43,7 +44,6 @@ class Extraction {
   }
   Status images(const char* kind, const char* role, const std::vector<Texture>& textures);
   Status kernel_slices(const BrdfKernel& kernel, const std::string& name, Json& entry);
-  Status split_reflectance();
 
   const Pack& pack_;
   std::filesystem::path folder_;

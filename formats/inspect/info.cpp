@@ -160,8 +160,6 @@ Json small_maps_json(const Pack& pack, Json out) {
   out["fresnel_maps"] = Json::array();
   for (const auto& f : pack.fresnel_maps)
     out["fresnel_maps"].push_back({{"alpha", f.alpha}, {"table_entries", f.table.size()}});
-  out["split_reflectance"] = {{"angles", pack.split_reflectance.angles},
-                              {"roughnesses", pack.split_reflectance.roughnesses}};
   out["cameras"] = Json::array();
   for (const auto& c : pack.cameras) out["cameras"].push_back(c.name);
   out["paths"] = Json::array();
@@ -276,8 +274,6 @@ void print_material_maps(const Pack& pack) {
   }
   fmt::print("{} Fresnel maps: alpha {:.4g} to {:.4g}, tables of {} to {} entries\n", pack.fresnel_maps.size(), low,
              high, least, most);
-  if (const SplitReflectance& split = pack.split_reflectance; !split.table.empty())
-    fmt::print("split reflectance: {} angles x {} roughnesses\n", split.angles, split.roughnesses);
 }
 
 void print_maps(const PackIndex& index, const Pack& pack) {

@@ -135,7 +135,7 @@ std::vector<ToolCommand> writers(Arguments& a) {
                 path(a.output, "FILE|DIR"), Use::kRequired},
                {"--as", kOptions,
                 "emissive: any viewer shows the light as it is; lightmap: EXR and KTX2 files beside the scene; probes: "
-                "what curved reflectors see as KTX2 cubes, and the split-sum table",
+                "what curved reflectors see as KTX2 cubes",
                 one_of(a.exported.as, {"emissive", "lightmap", "probes"}), Use::kEveryday},
                {"--texture", kOptions,
                 "What KTX2 files hold: bc6h, rgb9e5, or auto: BC6H where it rounds light by at most a quarter of its "

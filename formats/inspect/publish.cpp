@@ -24,8 +24,6 @@ bool overwrites(const std::filesystem::path& pack, const std::filesystem::path& 
   return true;
 }
 
-constexpr std::uint32_t kDfgSide = 128;  // as usual in engines
-
 const char* name_of(TexelCoding coding) {
   return coding == TexelCoding::kBc6h ? "BC6H" : "RGB9E5";
 }
@@ -48,11 +46,11 @@ Status write_lightmap(const LightmapPage& page, const std::filesystem::path& fol
   return {};
 }
 
-// A cube for each map of a curved reflector, the split-sum table, and an index of them.
+// A cube for each map of a curved reflector, and an index of them.
 Status write_probes(const Pack& pack, const std::filesystem::path& folder, TexelCoding coding) {
-  if (pack.surround_maps.empty() && pack.split_reflectance.table.empty())
+  if (pack.surround_maps.empty())
     return fail(ErrorCode::kUsage, "--as probes",
-                "found neither maps of curved reflectors nor a split-sum table, expected a pack with shiny surfaces");
+                "found no maps of curved reflectors, expected a pack with shiny things");
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return fail(ErrorCode::kIo, folder.string(), "cannot be made: {}", error.message());
@@ -72,14 +70,8 @@ Status write_probes(const Pack& pack, const std::filesystem::path& folder, Texel
     fmt::print("{}: {}, {} cd/m2 a unit, rounded by {:.2g} %\n", (folder / name).string(), name_of(coding), cube.scale,
                100 * cube.rounding);
   }
-  Json index = {{"cubes", std::move(cubes)}};
-  if (!pack.split_reflectance.table.empty()) {
-    ORIEL_TRY_VOID(write_texture(folder / "dfg.ktx2", dfg_texture(pack.split_reflectance, kDfgSide)));
-    index["dfg"] = {
-        {"file", "dfg.ktx2"}, {"x", "cos_theta"}, {"y", "perceptual_roughness"}, {"channels", {"f0", "f90"}}};
-    fmt::print("{}: RG16F, {} x {}\n", (folder / "dfg.ktx2").string(), kDfgSide, kDfgSide);
-  }
-  ORIEL_TRY_VOID(write_file_atomically(folder / "probes.json", bytes_of_text(index.dump(2) + "\n")));
+  ORIEL_TRY_VOID(
+      write_file_atomically(folder / "probes.json", bytes_of_text(Json{{"cubes", std::move(cubes)}}.dump(2) + "\n")));
   fmt::print("{}\n", (folder / "probes.json").string());
   return {};
 }

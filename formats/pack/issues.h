@@ -133,7 +133,6 @@ void validate_curved_reflectors(const Pack& pack, IssueList& list);
 void validate_surround_maps(const Pack& pack, ImagePixels pixels, IssueList& list);
 void validate_kernels(const Pack& pack, IssueList& list);
 void validate_fresnel_maps(const Pack& pack, IssueList& list);
-void validate_split_reflectance(const Pack& pack, IssueList& list);
 void validate_emitters(const Pack& pack, IssueList& list);
 // Of movers and of lamps.
 void validate_motion(const std::string& whose, const MoverPose& rest, const std::vector<MoverKey>& keys,

@@ -96,7 +96,6 @@ inline constexpr std::uint32_t kCurvedReflectorSection = fourcc("CRFL");
 inline constexpr std::uint32_t kSurroundMapSection = fourcc("SMAP");
 inline constexpr std::uint32_t kKernelSection = fourcc("KERN");
 inline constexpr std::uint32_t kFresnelSection = fourcc("FRES");
-inline constexpr std::uint32_t kSplitSection = fourcc("SPLT");
 inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
 inline constexpr std::uint32_t kWalkSection = fourcc("WALK");
@@ -110,7 +109,7 @@ inline constexpr std::uint32_t kDaySection = fourcc("DAYH");
 inline constexpr std::uint32_t kSkyMapSection = fourcc("SKYM");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 32> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 31> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -131,7 +130,6 @@ inline constexpr std::array<SectionKind, 32> kSectionKinds = {{
     {kSurroundMapSection, "surround map", true, false, true},
     {kKernelSection, "kernels", false, false, false},
     {kFresnelSection, "Fresnel maps", false, false, false},
-    {kSplitSection, "split reflectance", true, false, false},
     {kCameraSection, "cameras", true, false, false},
     {kPathSection, "camera paths", true, false, false},
     {kWalkSection, "walk grids", true, false, false},

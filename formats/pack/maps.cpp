@@ -312,6 +312,9 @@ void describe(Serial& s, MapMesh& mesh) {
 void describe(Serial& s, SkyMap& sky) {
   std::int32_t exponent = s.reading() ? 0 : scale_exponent(largest_channel(sky.texels), 9);
   s.size(sky.width, sky.height);
+  if (sky.width > SkyMap::kMostWidth || sky.height > SkyMap::kMostHeight)
+    s.refuse("found {} x {} texels, expected at most {} x {}", sky.width, sky.height, SkyMap::kMostWidth,
+             SkyMap::kMostHeight);
   s.scale_exponent(exponent);
   describe_rgb9e5(s, sky.texels, std::uint64_t{sky.width} * sky.height, exponent);
 }

@@ -69,15 +69,4 @@ void describe(Serial& s, FresnelMap& map) {
   s.planes(image, std::uint64_t{side} * side);
 }
 
-void describe(Serial& s, SplitReflectance& split) {
-  s.size(split.angles, split.roughnesses);
-  const std::uint64_t entries = std::uint64_t{split.angles} * split.roughnesses;
-  std::vector<float> scale, bias;
-  for (const Vec2& v : split.table) scale.push_back(v.x), bias.push_back(v.y);
-  describe_shares(s, scale, entries, "scale");
-  describe_shares(s, bias, entries, "bias");
-  if (!s.reading() || !s.ok()) return;
-  for (std::size_t i = 0; i < scale.size(); ++i) split.table.emplace_back(scale[i], bias[i]);
-}
-
 }  // namespace oriel

@@ -70,7 +70,6 @@ struct Pack {
   std::vector<SurroundMap> surround_maps;
   std::vector<BrdfKernel> kernels;
   std::vector<FresnelMap> fresnel_maps;
-  SplitReflectance split_reflectance;
   std::vector<Camera> cameras;
   std::vector<CameraPath> paths;
   std::vector<WalkGrid> walk_grids;  // by storey

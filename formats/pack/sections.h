@@ -23,7 +23,6 @@ void describe(Serial& s, CurvedReflector& reflector);
 void describe(Serial& s, SurroundMap& map);
 void describe(Serial& s, BrdfKernel& kernel);
 void describe(Serial& s, FresnelMap& map);
-void describe(Serial& s, SplitReflectance& split);
 void describe(Serial& s, Camera& camera);
 void describe(Serial& s, CameraPath& path);
 void describe(Serial& s, WalkGrid& grid);
@@ -99,7 +98,6 @@ void visit_sections(P& pack, Visitor& v) {
   v.each(kSurroundMapSection, pack.surround_maps);
   v.list(kKernelSection, pack.kernels);
   v.list(kFresnelSection, pack.fresnel_maps);
-  v.one(kSplitSection, pack.split_reflectance, pack.split_reflectance.angles > 0);
   v.list(kCameraSection, pack.cameras);
   v.list(kPathSection, pack.paths);
   v.list(kWalkSection, pack.walk_grids);

@@ -205,11 +205,14 @@ void validate_texts(const Pack& pack, IssueList& list) {
   list.in_section(kSceneSection);
   if (!not_negative(pack.sky))
     list.error(804, "found sky radiance {}, expected finite numbers from 0 up", text_of(pack.sky));
+  list.in_section(kSkyMapSection);
   const SkyMap& sky = pack.sky_map;
-  if (sky.texels.size() != std::size_t{sky.width} * sky.height ||
-      !std::ranges::all_of(sky.texels, [](const Vec3& texel) { return not_negative(texel); }))
-    list.error(804, "found a sky map of {} x {} with {} texels, expected finite ones from 0 up", sky.width, sky.height,
-               sky.texels.size());
+  if (sky.width > SkyMap::kMostWidth || sky.height > SkyMap::kMostHeight ||
+      sky.texels.size() != std::size_t{sky.width} * sky.height)
+    list.error(805, "found {} x {} and {} texels, expected as many, and at most {} x {}", sky.width, sky.height,
+               sky.texels.size(), SkyMap::kMostWidth, SkyMap::kMostHeight);
+  list.each(
+      806, "texels", sky.texels, [](const Vec3& texel) { return not_negative(texel); }, "finite numbers from 0 up");
 }
 
 void validate_unknown(const Pack& pack, IssueList& list) {
@@ -244,7 +247,6 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_kernels(pack, list);
   validate_kernel_fits(pack, list);
   validate_fresnel_maps(pack, list);
-  validate_split_reflectance(pack, list);
   validate_cameras(pack, list);
   validate_walk_grids(pack, list);
   validate_visible_sets(pack, list);

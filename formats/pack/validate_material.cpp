@@ -101,19 +101,4 @@ void validate_fresnel_maps(const Pack& pack, IssueList& list) {
   }
 }
 
-void validate_split_reflectance(const Pack& pack, IssueList& list) {
-  const SplitReflectance& split = pack.split_reflectance;
-  list.in_section(kSplitSection);
-  if (split.angles == 0 && split.roughnesses == 0 && split.table.empty()) return;
-  if (split.angles < 2 || split.roughnesses < 2 || split.angles > kMaxSide || split.roughnesses > kMaxSide ||
-      split.table.size() != std::size_t{split.angles} * split.roughnesses)
-    list.error(611, "found {} entries of {} angles and {} roughnesses, expected at least 2 x 2", split.table.size(),
-               split.angles, split.roughnesses);
-  // Both are rounded to halves.
-  list.each(
-      612, "entries", split.table,
-      [](const Vec2& v) { return within(v.x, 0, 1) && within(v.y, 0, 1) && v.x + v.y <= 1.001f; },
-      "0 to 1, and their sum at most 1");
-}
-
 }  // namespace oriel

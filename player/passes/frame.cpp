@@ -159,7 +159,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
     const std::vector<std::uint32_t> seen = scene_pass_.mark_seen(context, shown);
     shown = scene.keep_shown(std::move(shown), seen);
   });
-  if (options.show == Show::kAll) scene_pass_.draw_sky(context, 1);
+  if (options.show == Show::kAll) clock_.time(Pass::kScene, [&] { scene_pass_.draw_sky(context, 1); });
   if (is_survey(options.show)) {
     ORIEL_TRY_VOID(clock_.time(Pass::kScene, [&] { return survey_pass_.draw(context, shown); }));
   } else {

@@ -158,7 +158,9 @@ Status GlassPass::draw_through(const FrameContext& context, const GlassWindow& w
   View beyond = window.view;
   beyond.clip_from_pack = window.clip;
   const FrameContext through{scene, beyond, context.options, context.stats};
-  scene_pass.draw_sky({scene, window.view, context.options, context.stats}, kClosest);
+  View all = window.view;
+  all.width = canvas_->size().x, all.height = canvas_->size().y;
+  scene_pass.draw_sky({scene, all, context.options, context.stats}, kClosest);
   scene_pass.draw_reflected(through, {visible_batches(scene.opaque(), make_frustum(window.clip)), {}, {}});
   if (has_levels_) canvas_->through.make_mipmaps();
   return gpu::check_gl("drawing through glass");

@@ -250,13 +250,14 @@ void ScenePass::draw_sky(const FrameContext& context, float alpha) const {
   sky_.use();
   sky_.set("u_sky", 0);
   sky_.set("u_color", scene.pack().sky);
-  sky_.set("u_pack_from_clip", glm::inverse(view.clip_from_view * view.view_from_pack));
+  sky_.set("u_direction_from_clip", glm::inverse(view.clip_from_view * Mat4(Mat3(view.view_from_pack))));
   sky_.set("u_eye", view.eye);
   sky_.set("u_size", Vec2(view.width, view.height));
   sky_.set("u_alpha", alpha);
   glDepthRange(1, 1);  // behind all
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthRange(0, 1);
+  ++stats.draws;
 }
 
 Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeights& weights,

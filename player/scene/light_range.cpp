@@ -15,7 +15,6 @@ bool GpuScene::fits_halves() const {
   constexpr float kLeastRadius = 0.1f;  // m: a near plane of a smaller scene is nearer than 1 / distance can say
   if (!(0.5f * glm::length(bounds_.upper - bounds_.lower) >= kLeastRadius)) return false;
   float most = max_component(pack_.sky);
-  for (const Vec3& texel : pack_.sky_map.texels) most = std::max(most, max_component(texel * pack_.sky));
   for (std::uint32_t m = 0; m < pack_.materials.size(); ++m)
     most = std::max(most, max_component(brightest_emission(m)));
   for (std::uint32_t i = 0; i < pack_.lightmaps.size(); ++i)

@@ -4,7 +4,6 @@
 
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
-#include "formats/core/text.h"
 #include "formats/image/display.h"
 #include "formats/image/exr.h"
 #include "formats/image/relative_error.h"

@@ -79,5 +79,36 @@ TEST_F(LightsTest, TheSkyFollowsTheHour) {
   }
 }
 
+// A sky whose red is how far a direction lies towards +X and whose green how far it lies up, straight and in a mirror.
+TEST_F(LightsTest, TheSkyIsSeenByDirection) {
+  Pack pack = lit_wall();
+  pack.sky = Vec3(100, 200, 50);
+  pack.sky_map = {64, 32, {}};
+  for (std::uint32_t y = 0; y < 32; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      const float turn = 2 * kPi * ((static_cast<float>(x) + 0.5f) / 64 - 0.5f);
+      const float polar = kPi * (static_cast<float>(y) + 0.5f) / 32;
+      pack.sky_map.texels.emplace_back(1 + std::sin(polar) * std::cos(turn), 1 + std::cos(polar), 1);
+    }
+  const auto expect = [&](const Vec3& light, const Vec3& direction) {
+    EXPECT_NEAR(light.x, 100 * (1 + direction.x), 2);
+    EXPECT_NEAR(light.y, 200 * (1 + direction.y), 4);
+    EXPECT_NEAR(light.z, 50, 0.5f);
+  };
+  for (const Vec3& forward : {Vec3(0, 0, 1), Vec3(1, 0, 0.2f), Vec3(-1, 0.7f, 1), Vec3(-1, 0, 0.01f)}) {
+    Camera away = camera();
+    away.forward = glm::normalize(forward);
+    expect(draw(pack, away, 9, 9).at(4, 4), away.forward);
+  }
+  pack.materials.push_back({});
+  pack.materials.back().fresnel_map = 0;
+  pack.fresnel_maps = {flat_reflectance(Vec3(1))};
+  add_bare_mirror(pack, {-2, -2, 0.5f}, {4, 0, 0}, {0, 4, 0}, 3);
+  const Picture picture = draw(pack, camera(), 33, 33);
+  const float edge = std::tan(0.5f) * 32 / 33;
+  expect(picture.at(16, 16), {0, 0, 1});
+  expect(picture.at(32, 0), glm::normalize(Vec3(edge, edge, 1)));
+}
+
 }  // namespace
 }  // namespace oriel

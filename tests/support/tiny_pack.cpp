@@ -335,7 +335,6 @@ Pack tiny_mapped_pack() {
   }
   pack.kernels[1].slice_size = 3;
   pack.kernels[1].slices = {tiny_slice(0.25f), tiny_slice(1)};
-  pack.split_reflectance = {2, 3, {{0, 1}, {1, 0}, {0.25f, 0.5f}, {0.75f, 0.125f}, {0, 0.5f}, {0.5f, 0}}};
   pack.fresnel_maps[0].factor = {Vec3(1), Vec3(0.25f, 0.5f, 0.75f), Vec3(0.04f)};
   pack.kernels[1].fits = {{0.5f, 0.25f, 2, -0.5f, 0.75f}, {}};
   pack.radiance_maps.push_back(tiny_radiance_map(0.5f));
@@ -372,6 +371,7 @@ Pack tiny_mapped_pack() {
   for (const Reflector& r : pack.reflectors)
     pack.reflected_sets.seen.push_back(static_cast<std::uint8_t>(r.map_count > 0 ? 3 : 1));
   pack.reflected_sets.made_for = reflected_hash(sets, pack.reflectors);
+  pack.sky_map = {3, 2, {{1, 2, 3}, {0.5f, 0, 0.25f}, {4, 1, 1}, {0, 0, 0}, {1, 1, 1}, {2, 0.5f, 1}}};
   pack.movers = {tiny_mover()};
   pack.light_field = tiny_field();
   add_tiny_groups(pack);

@@ -100,7 +100,7 @@ TEST(Uv1, TouchingChartsAndAWrongScaleAreSaidAndMended) {
   expect_sound(scene, built);
   EXPECT_THAT(built.warnings,
               ::testing::ElementsAre(
-                  AllOf(HasSubstr("'tiny'"), HasSubstr("100 times smaller")),
+                  AllOf(HasSubstr("'tiny'"), HasSubstr("100 times larger")),
                   AllOf(HasSubstr("'pair'"), HasSubstr("by their first triangles: 0 and 1"), HasSubstr("from mip 0"))));
   EXPECT_EQ(built.atlas.texel_m, 0.1f);
   EXPECT_NEAR(static_cast<double>(built.map[0].texel.size()), 3 * 400 + 2 * 55, 10) << "a diagonal may touch more";
@@ -195,6 +195,15 @@ TEST(Uv1, OutsideThePageIsPacked) {
   const Built built = build(scene, uv1_options());
   expect_sound(scene, built);
   EXPECT_TRUE(built.atlas.pages[0].from_uv1);
+}
+
+TEST(Uv1, WhatIsNoNumberOrFarAwayIsSurvived) {
+  for (const Vec2& upper : {Vec2(std::nanf(""), 1), Vec2(1, 0), Vec2(1e9f, 1), Vec2(1e-9f, 1e-9f)}) {
+    Scene scene = shapes::empty_scene();
+    add_quad_uv1(scene, "odd", {0, 0, 0}, kX, kY, {0, 0}, upper);
+    add_quad_uv1(scene, "sound", {3, 0, 0}, kX, kY, {0, 0}, {1, 1});
+    for (const int resolution : {0, 128}) expect_sound(scene, build(scene, uv1_options(resolution)));
+  }
 }
 
 TEST(Uv1, WithoutArea) {

@@ -150,23 +150,6 @@ TEST(Reflectance, TableOfPathsIsNearTheExactOne) {
     }
 }
 
-// The split form: scale and bias of f0 and f90 after Karis 2013, for textured f0.
-TEST(Reflectance, SplitFormGivesTheSingleScatteringAlbedo) {
-  for (const double alpha : {0.01, 0.25, 1.0})
-    for (const double cos_theta : {0.1, 0.3, 1.0}) {
-      const LobeFunction f = function_of({FacetModel::kGgx, alpha});
-      double scale = 0, bias = 0;
-      for_each_reflection(cos_theta, alpha, 24, [&](const DVec3& wi, const DVec3& h, double solid_angle) {
-        const DVec3 wo = direction_at(cos_theta);
-        const double value = f(wo, wi, h) * solid_angle, weight = schlick_weight(glm::dot(wo, h));
-        scale += value * (1 - weight), bias += value * weight;
-      });
-      const Vec2 split = split_albedo({}, static_cast<float>(alpha), static_cast<float>(cos_theta));
-      EXPECT_NEAR(split.x, scale, 2e-3) << alpha << " " << cos_theta;
-      EXPECT_NEAR(split.y, bias, 2e-3) << alpha << " " << cos_theta;
-    }
-}
-
 DVec3 direction(double cos_theta, double phi) {
   const double s = std::sqrt((1 - cos_theta) * (1 + cos_theta));
   return {s * std::cos(phi), s * std::sin(phi), cos_theta};

@@ -52,6 +52,12 @@ TEST(ObjectKeys, UnknownOnesAndValuesAreSaid) {
   EXPECT_TRUE(import_with({{"oriel_texel", "2 feet"}}).warned("expected"));
   EXPECT_TRUE(import_with({{"oriel_density", -3}}).warned("found -3, expected texels a metre"));
   EXPECT_FALSE(import_with({{"oriel", {{"angular_diameter_deg", 1}}}}).warned("no key"));
+  EXPECT_TRUE(import_with({{"oriel", {{std::string("a\0b", 3), 1}}}}).warned("is no key"));
+  EXPECT_TRUE(import_with({{"oriel_light_group", Json::array({1, 2})}}).warned("found no number, text, true or false"));
+  EXPECT_TRUE(import_with({{"oriel", "anybody's"}}).ok());
+  Gltf g = test::triangle();
+  g.material()["extras"] = {{"oriel", {{"texel", "2cm"}}}};
+  EXPECT_TRUE(import(g).warned("are a node's"));
 }
 
 TEST(ObjectKeys, RulesGoOverTheFileAndDownTheTree) {
@@ -66,6 +72,13 @@ TEST(ObjectKeys, RulesGoOverTheFileAndDownTheTree) {
   EXPECT_FLOAT_EQ(import(g, options).scene().surfaces[1].texel_m, 0.03f);
   options.objects = parse_object_rules("group/below:exclude").value();
   EXPECT_EQ(import(g, options).scene().surfaces.size(), 1u);
+  options.objects = parse_object_rules("group:exclude,two_sided").value();
+  EXPECT_FALSE(import(g, options).ok()) << "nothing is left";
+  const auto more = parse_object_rules("below:exclude=false").value();
+  options.objects.insert(options.objects.end(), more.begin(), more.end());
+  const Imported kept = import(g, options);
+  ASSERT_EQ(kept.scene().surfaces.size(), 1u);
+  EXPECT_TRUE(kept.scene().material_of(0).double_sided);
 }
 
 TEST(ObjectKeys, RulesAreReadAndWritten) {
@@ -76,6 +89,18 @@ TEST(ObjectKeys, RulesAreReadAndWritten) {
   EXPECT_EQ(text_of(rules[0]), "a:b:mover,texel=2cm");
   for (const char* wrong : {"crate", ":mover", "crate:", "crate:movr", "crate:texel", "crate:texel=0", "crate:mover=2"})
     EXPECT_FALSE(parse_object_rules(wrong)) << wrong;
+  EXPECT_EQ(parse_object_rules("crate:light_group=a:b").value()[0].keys[0].second, "a:b");
+  const test::TempFolder folder;
+  const auto file = [&](const std::string& json) { return folder.write("keys.json", json).string(); };
+  const auto read =
+      parse_object_rules(file(R"({"a*": {"texel": 0.5, "mover": true}, "b": {"metal": "gold"}})")).value();
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(text_of(read[0]), "a*:texel=0.5,mover=true");
+  for (const char* wrong : {R"({"a": true})", R"({"a": {"movr": 1}})", "[]", "{"}) {
+    const auto refused = parse_object_rules(file(wrong));
+    ASSERT_FALSE(refused) << wrong;
+    EXPECT_THAT(refused.error().text(), HasSubstr("keys.json"));
+  }
   const auto none = import_with({}, "crat:mover").result;
   ASSERT_FALSE(none);
   EXPECT_THAT(none.error().text(), HasSubstr("found the node \"crat\", expected one of the scene's"));

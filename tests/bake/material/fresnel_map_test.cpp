@@ -22,13 +22,6 @@ SpecularLayers dielectric(double eta, float alpha) {
   return {{Vec3(static_cast<float>(dielectric_f0(ior))), 1, alpha, {.ior = ior, .schlick = 0}}, 0, 0};
 }
 
-// R of one texel's f0 and f90 out of an entry of a split table, as shaders/lib/fresnel.glsl has it.
-Vec3 split_reflectance(const Vec2& entry, const Vec3& f0, float f90) {
-  const float whole = entry.x + entry.y;
-  return glm::clamp((f0 * entry.x + Vec3(f90 * entry.y)) * (Vec3(1) + f0 * (1 / std::max(whole, 1e-6f) - 1)), Vec3(0),
-                    Vec3(1));
-}
-
 TEST(FresnelMap, IsMonotonicInF0AndNeverAboveOne) {
   for (const float alpha : {0.0f, 0.01f, 0.25f, 1.0f}) {
     const FresnelMap black = make_fresnel_map(schlick(Vec3(0), 0, alpha)),
@@ -93,7 +86,6 @@ TEST(FresnelMap, MirrorFollowsTheExactEquationsTo90Degrees) {
   }
 }
 
-// One table for every colour: the split form with compensation beside the exact R.
 TEST(FresnelMap, FactorsAreTheFacets) {
   const FresnelMap glass = make_fresnel_map(dielectric(1.5, 0.1f));
   ASSERT_EQ(glass.factor.size(), 65u);
@@ -104,21 +96,6 @@ TEST(FresnelMap, FactorsAreTheFacets) {
                p = (1.5 * cosine - inside) / (1.5 * cosine + inside);
   EXPECT_NEAR(glass.factor[32].g, 0.5 * (s * s + p * p), 1e-6);
   EXPECT_TRUE(make_fresnel_map(dielectric(1.5, 0)).factor.empty()) << "a mirror has one direction";
-}
-
-TEST(FresnelMap, SplitTableServesAnyF0) {
-  const FresnelCurve curves[] = {{}, {.ior = 1.5f, .schlick = 0}};
-  for (const FresnelCurve& curve : curves)
-    for (const float alpha : {0.0f, 0.01f, 0.2f, 1.0f}) {
-      const std::vector<Vec2> table = make_split_table(curve, alpha);
-      const Vec3 f0(0.04f, 0.5f, 1);
-      const ExactReflectance exact({f0, 1, alpha, curve});
-      for (std::size_t i = 0; i < table.size(); i += 8) {
-        const double root = static_cast<double>(i) / static_cast<double>(table.size() - 1);
-        EXPECT_LT(max_component(glm::abs(split_reflectance(table[i], f0, 1) - exact(root * root))), 5e-3)
-            << alpha << " " << root * root;
-      }
-    }
 }
 
 // Figure 6 of Bastos et al.: gold is red-yellow from above and white at the rim.

@@ -89,7 +89,6 @@ TEST(Sharing, FiftyDifferentMaterialsFitAMegabyte) {
   Pack pack;
   pack.kernels = maps->kernels;
   pack.fresnel_maps = maps->fresnel_maps;
-  pack.split_reflectance = make_split_reflectance();
   const auto file = encode_pack(pack);
   ASSERT_TRUE(file) << file.error().text();
   const auto index = read_index(*file);

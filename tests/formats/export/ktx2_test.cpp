@@ -99,14 +99,6 @@ TEST(Ktx2, DescriptorOfBc6hIsThatOfItsBlocks) {
   EXPECT_EQ(p.descriptor_bytes, 4u + 24 + 16);
 }
 
-// Halves of RG: of each channel 16 bits.
-TEST(Ktx2, TablesAreHalves) {
-  const Parsed p = parsed(*ktx2_file({TexelCoding::kRg16f, 2, 1, 1, Bytes(8)}));
-  EXPECT_EQ(p.header[0], 83u);
-  EXPECT_EQ(p.header[1], 2u);
-  EXPECT_EQ(p.inflated_bytes, 8u);
-}
-
 // The coding follows from what is known of the light: a page with 4 % of noise need not keep thousandths.
 TEST(Ktx2, TheCodingIsAsGoodAsTheLight) {
   LightmapPage page = page_of(16, 16, 300);

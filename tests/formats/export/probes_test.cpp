@@ -99,21 +99,5 @@ TEST(ProbeCube, TheSunIsScaled) {
   }
 }
 
-// Linear in √cosθ and in roughness: so are the texels.
-TEST(DfgTexture, IsTheTableAtCentresOfTexels) {
-  SplitReflectance split{9, 5, {}};
-  for (std::uint32_t j = 0; j < 5; ++j)
-    for (std::uint32_t i = 0; i < 9; ++i)
-      split.table.emplace_back(static_cast<float>(i) / 8, static_cast<float>(j) / 4);
-  const Ktx2Texture texture = dfg_texture(split, 16);
-  ASSERT_EQ(texture.level.size(), 16u * 16 * 4);
-  for (std::uint32_t i = 0; i < 256; ++i) {
-    std::uint16_t half[2];
-    std::memcpy(half, &texture.level[std::size_t{4} * i], 4);
-    EXPECT_NEAR(float_from_half(half[0]), std::sqrt((static_cast<float>(i % 16) + 0.5f) / 16), 1e-3f);
-    EXPECT_NEAR(float_from_half(half[1]), (static_cast<float>(i / 16) + 0.5f) / 16, 1e-3f);
-  }
-}
-
 }  // namespace
 }  // namespace oriel

@@ -194,8 +194,8 @@ TEST(Hostile, DirectionsAndNormalMapping) {
   expect_refusal(with_raw(kMeshSection, sides, std::int8_t{2}), "found side 2 of vertex 0's");
 }
 
-TEST(Hostile, KernelsByIncidenceAndSplitReflectance) {
-  const std::string kernels = "section KERN (kernels): ", split = "section SPLT (split reflectance): ";
+TEST(Hostile, KernelsByIncidence) {
+  const std::string kernels = "section KERN (kernels): ";
   const std::size_t at = 40 + 24 + 4 * 25;  // behind the weights of the second kernel
   const std::size_t slice = at + 8, radial = slice + 48;
   expect_refusal(with_raw(kKernelSection, at, 4u), kernels + "element 1: found slices of size 4, expected an odd one");
@@ -208,10 +208,13 @@ TEST(Hostile, KernelsByIncidenceAndSplitReflectance) {
   expect_refusal(with_raw(kKernelSection, radial + 7, std::uint8_t{0x7c}),
                  kernels + "element 1: found radial share half");
   expect_refusal(with_raw(kKernelSection, radial + 16, std::uint8_t{0xbc}), kernels + "element 1: found weight half");
-  expect_refusal(with_raw(kSplitSection, 0, 0u), split + "found 0 x 3 texels");
-  expect_refusal(with_raw(kSplitSection, 4, 32768u), split + "its counts need more");
-  expect_refusal(with_raw(kSplitSection, 14, std::uint8_t{0x80}), split + "found scale half");
-  expect_refusal(with_record(kSplitSection, [](SectionRecord& r) { r.count = 2; }), split + "found 2 elements");
+}
+
+TEST(Hostile, SkyMap) {
+  const std::string sky = "section SKYM (sky map): ";
+  expect_refusal(with_raw(kSkyMapSection, 0, 0u), sky + "found 0 x 2 texels");
+  expect_refusal(with_raw(kSkyMapSection, 0, 2049u), sky + "found 2049 x 2 texels, expected at most 2048 x 1024");
+  expect_refusal(with_raw(kSkyMapSection, 4, 1024u), sky + "its counts need more");
 }
 
 TEST(Hostile, VisibleSets) {

@@ -156,7 +156,7 @@ TEST(Pack, DirectionsAndNormalMapsComeBack) {
   EXPECT_EQ(*first, *second);
 }
 
-TEST(Pack, KernelsByIncidenceAndSplitReflectanceComeBack) {
+TEST(Pack, KernelsByIncidenceComeBack) {
   const Pack in = tiny_mapped_pack(), out = round_trip(in);
   EXPECT_TRUE(out.kernels[0].slices.empty());
   EXPECT_EQ(out.kernels[1].slice_size, 3u);
@@ -169,9 +169,6 @@ TEST(Pack, KernelsByIncidenceAndSplitReflectanceComeBack) {
     EXPECT_EQ(a.weights, b.weights);  // halves hold these
     for (std::size_t k = 0; k < a.radial.size(); ++k) EXPECT_NEAR(a.radial[k], b.radial[k], 0x1p-12f);
   }
-  EXPECT_EQ(out.split_reflectance.angles, 2u);
-  EXPECT_EQ(out.split_reflectance.roughnesses, 3u);
-  EXPECT_EQ(out.split_reflectance.table, in.split_reflectance.table);
 }
 
 TEST(Pack, WhatReflectionsNeedComesBack) {
