@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kSameNormal = 0.9f;  // cosine
 constexpr float kSamePlane = 0.25f;  // of the distance
-constexpr float kReach = 1.6f;       // texels: a diagonal and a little
+constexpr float kReach = 1.6f;       // sides of a square texel: a diagonal and a little
 constexpr float kLift = 0.1f;        // texels above the surface at which neighbours must see each other
 
 struct Candidate {
@@ -29,12 +29,11 @@ class NeighbourFinder {
       size_[i] = std::sqrt(texels.area_m2[i]);
     }
     // Partly covered texels are smaller than the grid: neighbours stand a whole texel apart.
-    std::vector<float> of_chart;
-    for (std::size_t i = 0; i < texels.count(); ++i) {
-      if (of_chart.size() <= texels.chart[i]) of_chart.resize(texels.chart[i] + 1, 0.0f);
+    std::vector<float> of_chart(texels.chart.empty() ? 0 : *std::ranges::max_element(texels.chart) + 1, 0.0f);
+    for (std::size_t i = 0; i < texels.count(); ++i)
       of_chart[texels.chart[i]] = std::max(of_chart[texels.chart[i]], size_[i]);
-    }
     for (std::size_t i = 0; i < texels.count(); ++i) size_[i] = of_chart[texels.chart[i]];
+    find_reach(of_chart);
     fill_rims();
   }
 
@@ -83,7 +82,7 @@ class NeighbourFinder {
   bool continues(std::uint32_t a, std::uint32_t b) const {
     if (texels_.visible[b] == 0 || glm::dot(normal(a), normal(b)) < kSameNormal) return false;
     const Vec3 between = position_[b] - position_[a];
-    const float reach = kReach * std::max(size_[a], size_[b]), d2 = length2(between);
+    const float reach = std::max(reach_[texels_.chart[a]], reach_[texels_.chart[b]]), d2 = length2(between);
     if (d2 > reach * reach) return false;
     const float off = std::max(std::abs(glm::dot(between, normal(a))), std::abs(glm::dot(between, normal(b))));
     return off <= kSamePlane * std::max(std::sqrt(d2), 0.2f * reach);
@@ -108,8 +107,29 @@ class NeighbourFinder {
     return false;
   }
 
+  // A file's own charts may be stretched: a texel's diagonal is then longer than its area tells.
+  void find_reach(const std::vector<float>& side) {
+    struct Steps {
+      float length_m = 0, count = 0;
+      float mean() const { return count > 0 ? length_m / count : 0; }
+    };
+    std::vector<std::array<Steps, 2>> steps(side.size());  // along u and v of the page
+    for (std::uint32_t i = 0; i < texels_.count(); ++i)
+      for (const int axis : {0, 1}) {
+        const std::uint32_t next = texels_.at(texels_.page[i], static_cast<int>(texels_.x[i]) + 1 - axis,
+                                              static_cast<int>(texels_.y[i]) + axis);
+        if (next == kNoTexel || texels_.chart[next] != texels_.chart[i]) continue;
+        if (texels_.visible[i] == 0 || texels_.visible[next] == 0) continue;
+        Steps& along = steps[texels_.chart[i]][axis];
+        along.length_m += std::sqrt(distance2(i, next)), ++along.count;
+      }
+    reach_.resize(side.size());
+    for (std::size_t c = 0; c < side.size(); ++c)
+      reach_[c] = kReach * std::max(side[c], std::hypot(steps[c][0].mean(), steps[c][1].mean()) / std::sqrt(2.0f));
+  }
+
   TreeBox reach_of(std::uint32_t i) const {
-    const Vec3 reach(kReach * size_[i]);
+    const Vec3 reach(reach_[texels_.chart[i]]);
     return {DVec3(position_[i] - reach), DVec3(position_[i] + reach)};
   }
 
@@ -124,6 +144,7 @@ class NeighbourFinder {
   const Texels& texels_;
   std::vector<Vec3> position_;
   std::vector<float> size_;                // side of a texel of its chart, metres
+  std::vector<float> reach_;               // by chart, metres
   std::vector<std::uint32_t> rim_texels_;  // those at the rims of charts
   std::optional<BoxTree> rims_;            // what is within their reach
 };

@@ -16,9 +16,10 @@ struct Listed {
   Texels texels;
   std::vector<std::uint32_t> floor;  // texels of the scene's first surface
 
-  Listed(Scene built, float texel_m, std::uint64_t seed = 1) : scene(std::move(built)) {
+  Listed(Scene built, float texel_m, std::uint64_t seed = 1, const AtlasOptions& charts = {})
+      : scene(std::move(built)) {
     context.seed = seed;
-    AtlasOptions options;
+    AtlasOptions options = charts;
     options.texel_m = texel_m;
     atlas = *build_atlas(scene, options, context);
     map = *build_texel_map(atlas, context);

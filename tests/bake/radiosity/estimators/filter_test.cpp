@@ -39,6 +39,24 @@ struct Shadows {
   }
 };
 
+// A file's own coordinates spread a wall of 9 m x 3 m over a square: three texels high are one wide.
+TEST(Filter, SeesAllNeighboursOfStretchedTexels) {
+  SceneParts parts;
+  parts.quad("wall", parts.diffuse(Vec3(0.5f)), {0, 0, 0}, {9, 0, 0}, {0, 3, 0});
+  AtlasOptions own;
+  own.source = AtlasOptions::Source::kUv1;
+  Listed listed{parts.finish(), 0.1f, 1, own};
+  const TexelGraph graph = *find_neighbours(listed.transport(), listed.texels, listed.context);
+  double inner = 0, full = 0;
+  for (std::uint32_t i = 0; i < graph.count.size(); ++i) {
+    const Vec3& at = listed.texels.sample_points[i][0].origin;
+    if (std::min({at.x, 9 - at.x, at.y, 3 - at.y}) < 0.5f) continue;
+    ++inner, full += graph.count[i] == kMaxNeighbours ? 1 : 0;
+  }
+  EXPECT_GT(inner, 1000);
+  EXPECT_GT(full, 0.99 * inner) << "few diagonals are too long: sample points are random";
+}
+
 TEST(Filter, TakesNoiseFromPenumbraeAndLeavesShadowsEdges) {
   Shadows s;
   const Texels& texels = s.listed.texels;
