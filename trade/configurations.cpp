@@ -89,7 +89,7 @@ class Planner {
       return;
     }
     const Settings maps_baked{{"--reflections", "maps"}};
-    add("reflections", "march", maps_baked, {{"--reflections", "march"}});
+    add("reflections", "maps", maps_baked, {});
     add("reflections", "geometry", {{"--reflections", "geometry"}}, {});
     for (const std::string& views : either({"2"}, {"1", "2", "4"})) add("views", views, {{"--views", views}}, {});
     for (const std::string& maps : either({"1"}, {"1", "4", "8"})) add("maps", maps, maps_baked, {{"--maps", maps}});

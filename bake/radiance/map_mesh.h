@@ -1,4 +1,4 @@
-// Radiance maps' depth as triangles: instead of a march through pixels, or a point for each.
+// Radiance maps' depth as triangles.
 #pragma once
 
 #include "bake/jobs/units.h"

@@ -230,12 +230,6 @@ SeenRay seen_ray(const SurroundMap& map, std::size_t pixel) {
           map.valid[pixel] == 2 || !(inverse > 0) ? std::numeric_limits<float>::infinity() : 1 / inverse};
 }
 
-void set_distance(RadianceMap& map, std::size_t pixel, float distance) {
-  const float length = glm::length(way_to_plane(map, pixel));
-  map.disparity[pixel] = length / (length + std::max(distance, 0.0f));
-  map.valid[pixel] = 1;
-}
-
 void set_distance(SurroundMap& map, std::size_t pixel, float distance) {
   map.inverse_distance[pixel] = 1 / std::max(distance, 1e-12f);
   map.valid[pixel] = 1;

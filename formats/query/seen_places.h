@@ -43,7 +43,6 @@ struct SeenRay {
 SeenRay seen_ray(const RadianceMap& map, const Reflector& reflector, std::size_t pixel);
 SeenRay seen_ray(const SurroundMap& map, std::size_t pixel);
 // The pixel shows a surface so far away.
-void set_distance(RadianceMap& map, std::size_t pixel, float distance);
 void set_distance(SurroundMap& map, std::size_t pixel, float distance);
 
 class SeenPlaces {

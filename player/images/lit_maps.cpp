@@ -138,8 +138,7 @@ Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarse
     }
     MapArrayData data = parts == Parts::kAll ? MapArrayData::make(layers) : MapArrayData::light_of(layers);
     out.textures.push_back(std::move(data.light));
-    if (parts == Parts::kAll)
-      for (TextureData* part : {&data.disparity, &data.ranges}) out.textures.push_back(std::move(*part));
+    if (parts == Parts::kAll) out.textures.push_back(std::move(data.disparity));
     out.map_scales.push_back(std::move(data.scale));
     out.map_sizes.push_back(std::move(sizes));
   }

@@ -12,49 +12,20 @@ namespace {
 
 // Arrays without pixels.
 MapArrayData shape_of(const IVec2& size, int layers) {
-  Relief largest;
-  largest.size = size;
-  const IVec2 range_size = largest.range_size(1);
-  const auto shape = [&](const gpu::TextureFormat& format, const IVec2& extent) {
+  const auto shape = [&](const gpu::TextureFormat& format) {
     TextureData data;
     data.format = format;
-    data.width = extent.x;
-    data.height = extent.y;
+    data.width = size.x;
+    data.height = size.y;
     data.layers = layers;
     return data;
   };
-  MapArrayData out{
-      shape(gpu::kRgb9e5, size), shape(gpu::kR16, size), shape(gpu::kRg16, {range_size.x, range_size.y * 3 / 2}), {}};
+  MapArrayData out{shape(gpu::kRgb9e5), shape(gpu::kR16), {}};
   for (TextureData* filtered : {&out.disparity, &out.light})
     filtered->options.min_filter = filtered->options.mag_filter = GL_LINEAR;
   out.light.options.levels = gpu::mip_levels(size.x, size.y);
   out.light.options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
   return out;
-}
-
-using RangeCode = std::array<std::uint16_t, 2>;
-
-std::vector<RangeCode> coded(std::span<const Vec2> ranges) {
-  std::vector<RangeCode> codes;
-  codes.reserve(ranges.size());
-  for (const Vec2& r : ranges)  // of nothing: the largest number, then the least
-    codes.push_back({disparity_code(std::clamp(r.x, 0.0f, kUnseenDisparity)),
-                     disparity_code(std::clamp(r.y, 0.0f, kUnseenDisparity))});
-  return codes;
-}
-
-// Level 1, and above it the others beside each other: `width` and `height` are those of level 1 of the array.
-void add_ranges(const Relief& relief, int layer, int width, int height, TextureData& ranges) {
-  const IVec2 first = relief.range_size(1);
-  ranges.add({0, layer, 0, first.x, first.y}, coded(relief.ranges[0]));
-  std::vector<RangeCode> strip(static_cast<std::size_t>(width) * static_cast<std::size_t>(height / 2));
-  for (int level = 2; level <= kRangeLevels; ++level) {
-    const IVec2 cells = relief.range_size(level);
-    const std::vector<RangeCode> codes = coded(relief.ranges[static_cast<std::size_t>(level - 1)]);
-    for (int y = 0; y < cells.y; ++y)
-      std::copy_n(codes.begin() + y * cells.x, cells.x, strip.begin() + y * width + width - (width >> (level - 2)));
-  }
-  ranges.add({0, layer, height, width, height / 2}, std::move(strip));
 }
 
 MapArrayData shape_of(std::span<const IVec2> sizes) {
@@ -67,14 +38,6 @@ std::vector<IVec2> sizes_of(std::span<const RadianceMap* const> maps) {
   std::vector<IVec2> sizes;
   for (const RadianceMap* map : maps) sizes.emplace_back(static_cast<int>(map->width), static_cast<int>(map->height));
   return sizes;
-}
-
-void add_relief(const Relief& relief, int layer, MapArrayData& out) {
-  add_ranges(relief, layer, out.ranges.width, out.ranges.height * 2 / 3, out.ranges);
-  std::vector<std::uint16_t> codes;
-  codes.reserve(relief.disparity.size());
-  for (const float s : relief.disparity) codes.push_back(disparity_code(s));
-  out.disparity.add({0, layer, 0, relief.size.x, relief.size.y}, std::move(codes));
 }
 
 void add_light(LightLevels levels, int layer, const IVec2& of_map, MapArrayData& out) {
@@ -97,11 +60,10 @@ constexpr std::size_t kAtOnce = 4;  // a map takes a few hundred bytes a pixel m
 
 MapArrayData MapArrayData::make(std::span<const RadianceMap* const> maps) {
   MapArrayData out = light_of(maps);
-  std::vector<Relief> reliefs(maps.size());
-  for_each_parallel(maps.size(), std::min(core_count(), kAtOnce),
-                    [&](std::size_t layer) { reliefs[layer] = make_relief(*maps[layer]); });
-  for (std::size_t layer = 0; layer < maps.size(); ++layer)
-    add_relief(std::exchange(reliefs[layer], {}), static_cast<int>(layer), out);
+  for (std::size_t layer = 0; layer < maps.size(); ++layer) {
+    const int width = static_cast<int>(maps[layer]->width), height = static_cast<int>(maps[layer]->height);
+    out.disparity.add({0, static_cast<int>(layer), 0, width, height}, disparity_codes(*maps[layer]));
+  }
   return out;
 }
 
@@ -118,7 +80,7 @@ MapArrayData MapArrayData::light_of(std::span<const RadianceMap* const> maps) {
 
 std::size_t map_array_bytes(std::span<const IVec2> sizes) {
   const MapArrayData shape = shape_of(sizes);
-  return shape.light.bytes() + shape.disparity.bytes() + shape.ranges.bytes();
+  return shape.light.bytes() + shape.disparity.bytes();
 }
 
 std::size_t map_light_bytes(std::span<const IVec2> sizes) {

@@ -1,21 +1,21 @@
-// The maps of a reflector element on the GPU, as shaders/lib/march.glsl reads them: a layer each.
+// The maps of a reflector element on the GPU, as shaders/passes/map_mesh.frag reads them: a layer each.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "player/images/relief.h"
+#include "player/images/map_levels.h"
 #include "player/images/texture_data.h"
 
 namespace oriel {
 
 // Before it is uploaded.
 struct MapArrayData {
-  TextureData light, disparity, ranges;
+  TextureData light, disparity;
   std::vector<float> scale;  // of each layer's light
   // Layer i is maps[i]; smaller ones lie in the lower left corner.
   static MapArrayData make(std::span<const RadianceMap* const> maps);
-  // The same without disparities and ranges.
+  // The same without disparities.
   static MapArrayData light_of(std::span<const RadianceMap* const> maps);
 };
 // On the device, of maps of these sizes.
@@ -23,8 +23,7 @@ std::size_t map_array_bytes(std::span<const IVec2> sizes);
 std::size_t map_light_bytes(std::span<const IVec2> sizes);  // of their light alone
 
 struct MapArray {
-  // Disparities and their ranges in 16 bits (relief.h).
-  gpu::TextureArray light, disparity, ranges;
+  gpu::TextureArray light, disparity;  // map_levels.h
   std::vector<float> scale;
   std::vector<IVec2> sizes;  // of the layers' maps, pixels
 };

@@ -24,8 +24,7 @@ void shine_all(const MapLights& lights, const std::vector<SeenPlace>& places, co
 }
 
 // Where lamps were is what was behind, by the light there and by its colour without texture.
-template <class Map>
-void uncover(const MapLights& lights, const SeenPixels& seen, Map& map) {
+void uncover(const MapLights& lights, const SeenPixels& seen, SurroundMap& map) {
   for (const SeenPixels::Behind& behind : seen.behind) {
     const std::uint16_t lamp = seen.places[behind.pixel].material;
     if (std::ranges::none_of(lights.factors.moved, [&](const auto& moved) { return moved->has(lamp); })) continue;
@@ -36,14 +35,12 @@ void uncover(const MapLights& lights, const SeenPixels& seen, Map& map) {
   }
 }
 
-template <class Map, class RayOf>
-void show(std::span<const MovedLamp* const> lamps, const RayOf& ray_of, Map& map) {
-  if (lamps.empty()) return;
+void show(std::span<const std::shared_ptr<const MovedLamp>> lamps, SurroundMap& map) {
   for_each_run(map.radiance.size(), kThreadsAMap, [&](std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
       if (map.valid[i] == 0) continue;
-      SeenRay ray = ray_of(i);
-      for (const MovedLamp* lamp : lamps)
+      SeenRay ray = seen_ray(map, i);
+      for (const auto& lamp : lamps)
         if (const auto seen = lamp->along(ray.from, ray.direction, ray.distance)) {
           ray.distance = seen->distance;
           map.radiance[i] = seen->radiance;
@@ -101,13 +98,6 @@ void MapLight::shine(const MapLights& lights, std::uint32_t index, RadianceMap& 
   const Reflector& reflector = pack_.reflectors[map.reflector];
   const Pixels seen = pixels(maps_, index, [&] { return finder().of(map, reflector); });
   shine_all(lights, seen->places, factor_of(lights.factors.reflectors, map.reflector), map);
-  if (lights.factors.moved.empty()) return;
-  uncover(lights, *seen, map);
-  std::vector<const MovedLamp*> lamps;
-  for (const auto& lamp : lights.factors.moved)
-    if (!lamp->is_emitter_of(map.reflector)) lamps.push_back(lamp.get());
-  show(
-      lamps, [&](std::size_t i) { return seen_ray(map, reflector, i); }, map);
 }
 
 void MapLight::shine(const MapLights& lights, std::uint32_t index, SurroundMap& map) {
@@ -115,10 +105,7 @@ void MapLight::shine(const MapLights& lights, std::uint32_t index, SurroundMap& 
   shine_all(lights, seen->places, factor_of(lights.factors.surrounds, index), map);
   if (lights.factors.moved.empty()) return;
   uncover(lights, *seen, map);
-  std::vector<const MovedLamp*> lamps;
-  for (const auto& lamp : lights.factors.moved) lamps.push_back(lamp.get());
-  show(
-      lamps, [&](std::size_t i) { return seen_ray(map, i); }, map);
+  show(lights.factors.moved, map);
 }
 
 void MapLight::forget_map(std::uint32_t index) {

@@ -45,9 +45,9 @@ class MapLight {
   // Refers to the pack's mesh and reflectors; of its materials, as they were baked, what is wanted is copied.
   explicit MapLight(const Pack& pack);
 
-  // Give the map, Pack::radiance_maps[index] and so on, the light of lamps as they shine now; where one has moved, with
-  // depths: it is shown where it is, and where it was what is behind. What pixels show is found the first time and
-  // kept. From any thread.
+  // Give the map, Pack::radiance_maps[index] and so on, the light of lamps as they shine now; surround maps show one
+  // that has moved where it is, and where it was what is behind. What pixels show is found the first time and kept.
+  // From any thread.
   void shine(const MapLights& lights, std::uint32_t index, RadianceMap& map);
   void shine(const MapLights& lights, std::uint32_t index, SurroundMap& map);
   // What the map's pixels show is not wanted any more.

@@ -4,9 +4,7 @@
 
 namespace oriel {
 
-MovedLamp::MovedLamp(const Pack& pack, const LightGroup& group, const MoverPose& pose,
-                     std::vector<std::uint32_t> in_closed_form)
-    : materials_(group.materials), in_closed_form_(std::move(in_closed_form)) {
+MovedLamp::MovedLamp(const Pack& pack, const LightGroup& group, const MoverPose& pose) : materials_(group.materials) {
   const Mat4 pack_from_lamp(pack_from_object(pose));
   Vec3 lower(std::numeric_limits<float>::infinity()), upper(-lower);
   for (const std::uint32_t p : shape_of_lamp(pack, group).parts) {

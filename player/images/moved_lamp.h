@@ -1,4 +1,4 @@
-// A lamp that is not where it was baked, as maps show it.
+// A lamp that is not where it was baked, as surround maps show it.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,7 @@ namespace oriel {
 class MovedLamp {
  public:
   // The parts of a light group that shine, as they do now; the pose takes them from where the mesh has them.
-  // in_closed_form: the planar reflectors that show it so.
-  MovedLamp(const Pack& pack, const LightGroup& group, const MoverPose& pose,
-            std::vector<std::uint32_t> in_closed_form);
+  MovedLamp(const Pack& pack, const LightGroup& group, const MoverPose& pose);
   MovedLamp(const MovedLamp&) = delete;
   MovedLamp& operator=(const MovedLamp&) = delete;
 
@@ -26,17 +24,13 @@ class MovedLamp {
   // Along a unit direction, nearer than `farthest`.
   std::optional<Seen> along(const Vec3& from, const Vec3& direction, float farthest) const;
   bool has(std::uint32_t material) const { return std::ranges::find(materials_, material) != materials_.end(); }
-  // Whether the reflector has light of it in closed form, which its maps leave out.
-  bool is_emitter_of(std::uint32_t reflector) const {
-    return std::ranges::find(in_closed_form_, reflector) != in_closed_form_.end();
-  }
 
  private:
   struct Surface {
     Vec3 emission{0};
     bool two_sided = false;
   };
-  std::vector<std::uint32_t> materials_, in_closed_form_;
+  std::vector<std::uint32_t> materials_;
   std::vector<Surface> surfaces_;  // by part of mesh_
   Mesh mesh_;                      // positions, indices and parts, where the lamp is
   Vec3 centre_{0};

@@ -38,15 +38,13 @@ void SceneImages::settle_maps(Upload& upload) {
   ReflectorMaps& maps = maps_[items_[upload.item].name.index];
   PreparedImage& image = upload.image;
   maps.mean_radiance = image.mean_radiance;
-  const std::size_t each = upload.light_alone ? 1 : 3;
+  const std::size_t each = upload.light_alone ? 1 : 2;
   maps.elements.resize(image.map_scales.size());
   for (std::size_t e = 0; e < maps.elements.size(); ++e) {
     MapArray& element = maps.elements[e];
     element.light = std::move(upload.textures[each * e].array);
     element.scale = std::move(image.map_scales[e]), element.sizes = std::move(image.map_sizes[e]);
-    if (upload.light_alone) continue;
-    element.disparity = std::move(upload.textures[each * e + 1].array);
-    element.ranges = std::move(upload.textures[each * e + 2].array);
+    if (!upload.light_alone) element.disparity = std::move(upload.textures[each * e + 1].array);
   }
 }
 

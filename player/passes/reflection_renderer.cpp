@@ -72,7 +72,6 @@ Result<ReflectionRenderer> ReflectionRenderer::create(const gpu::Device& device)
   out.device_ = device;
   out.prices_ = image_prices(device.renderer);
   ORIEL_TRY(out.reflector_pass_, ReflectorPass::create(device.dialect));
-  ORIEL_TRY(out.march_pass_, MarchPass::create(device.dialect));
   ORIEL_TRY(out.mesh_pass_, MeshPass::create(device));
   ORIEL_TRY(out.fill_pass_, FillPass::create(device.dialect));
   ORIEL_TRY(out.convolve_pass_, ConvolvePass::create(device.dialect));
@@ -89,7 +88,7 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameC
   if (target.frame == nullptr && target.budget_ms < prices_.image_ms) return out;
   if (target.frame != nullptr) image_count_ = 0;
   for (const GpuReflector& reflector : scene.reflectors()) {
-    const bool maps = shows_maps(reflector, options);
+    const bool maps = shows_maps(scene, reflector, options);
     if (reflector.index_count == 0 || (maps && options.maps_per_element <= 0)) continue;
     const Vec4 eye = eye_in_reflector(reflector, view);
     if (eye.z <= (view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
@@ -153,7 +152,7 @@ void ReflectionRenderer::afford(const FrameContext& context, const ReflectionTar
     const ImageRect rect = rect_of(context, m);
     const float share = share_of_picture(m.screen);
     std::uint64_t triangles = 0, parts = 0;
-    if (!shows_maps(*m.reflector, options)) {
+    if (!shows_maps(scene, *m.reflector, options)) {
       for (const DrawBatch& batch :
            batches_in(context, target, *m.reflector, mirrored_view(scene, *m.reflector, view, rect))) {
         ++parts;
@@ -189,7 +188,7 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
               work.extension->draw_reflection(work.context, {*target.frame, reflector, marked.screen, marked.value}));
     if (drawn) return {};
   }
-  const bool maps = shows_maps(reflector, options);
+  const bool maps = shows_maps(scene, reflector, options);
   if (maps) {
     ORIEL_TRY(const bool there, scene.bring_maps(reflector));
     if (!there) return {};  // another reflector's took their room
@@ -212,13 +211,13 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
     stats.holes += count.holes;
   }
   const gpu::Texture2d& depth = target.frame != nullptr ? target.frame->depth : target.image->depth;
-  if (blurred && !maps) {
-    const bool whole = !reflector.seen || !sets_hold(work.context, target);
+  if (blurred) {
+    const bool whole = !maps && (!reflector.seen || !sets_hold(work.context, target));
     timed(clock, Pass::kFill, [&] { convolve_pass_.cut(work.context, image, depth, whole); });
   }
   if (maps || blurred)
     timed(clock, Pass::kFill, [&] {
-      const auto holes = maps ? FillPass::Holes::kHidden : FillPass::Holes::kBeside;
+      const auto holes = maps && !blurred ? FillPass::Holes::kHidden : FillPass::Holes::kBeside;
       fill_pass_.draw({rect, image.target, holes, blurred}, stats);
     });
   if (rect.coarse > 1) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw(work.context, image); });
@@ -245,14 +244,9 @@ void ReflectionRenderer::compose(const FrameContext& context, const ReflectionTa
 Status ReflectionRenderer::draw_image(const ReflectionWork& work, const ReflectionTarget& target,
                                       const MarkedReflector& marked, const ReflectedImage& image) {
   if (!image.has_holes) return draw_mirrored(work, target, marked, image);
-  const FrameContext& context = work.context;
   const ShownPixels shown{target.frame != nullptr ? &target.frame->framebuffer : nullptr,
                           target.frame != nullptr ? marked.value : 0, kReflectorBits};
-  if (context.options.reflections == Reflections::kMesh && context.scene.has_map_meshes()) {
-    mesh_pass_.draw(context, image, !image.blurs && shown.value != 0 ? &shown : nullptr);
-  } else {
-    march_pass_.draw(context, image, shown);
-  }
+  mesh_pass_.draw(work.context, image, !image.blurs && shown.value != 0 ? &shown : nullptr);
   return {};
 }
 

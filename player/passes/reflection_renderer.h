@@ -22,7 +22,6 @@
 #include "player/reflections/convolve_pass.h"
 #include "player/reflections/curved_pass.h"
 #include "player/reflections/fill_pass.h"
-#include "player/reflections/march_pass.h"
 #include "player/reflections/mesh_pass.h"
 
 namespace oriel {
@@ -103,7 +102,6 @@ class ReflectionRenderer {
   Zone zone_;
   ImagePrices prices_;
   ReflectorPass reflector_pass_;
-  MarchPass march_pass_;
   MeshPass mesh_pass_;
   FillPass fill_pass_;
   ConvolvePass convolve_pass_;
@@ -112,9 +110,10 @@ class ReflectionRenderer {
   std::vector<gpu::Query> queries_;
 };
 
-// Whether a reflector's image is made of its maps: else the mirrored scene is drawn.
-inline bool shows_maps(const GpuReflector& reflector, const FrameOptions& options) {
-  return options.reflections != Reflections::kGeometry && !reflector.elements.empty();
+// Whether a reflector's image is made of its maps: else the mirrored scene is drawn, as where a lamp has moved, which
+// maps' meshes show where it was.
+inline bool shows_maps(const GpuScene& scene, const GpuReflector& reflector, const FrameOptions& options) {
+  return options.reflections != Reflections::kGeometry && !reflector.elements.empty() && !scene.lamps_moved();
 }
 
 }  // namespace oriel

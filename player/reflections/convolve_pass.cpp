@@ -7,7 +7,7 @@
 namespace oriel {
 namespace {
 
-// Pixels of blur from which M and M * K are made at fewer pixels, of a whole frame and of one that moves; and from how
+// Pixels of blur from which M * K is made at fewer pixels, of a whole frame and of one that moves; and from how
 // many times as much at fewer still.
 constexpr float kBlur = 6, kCoarseBlur = 1.5f, kWideBlur = 16 / 6.0f;
 
@@ -26,16 +26,13 @@ ImageRect choose_image(const NdcRect& screen, float median, const View& view, in
   const float least = coarse ? kCoarseBlur : kBlur;
   if (blur >= least) rect.coarse = 2;
   if (blur >= kWideBlur * least) rect.coarse = 4;
-  // With narrower lobes most of what is seen is marched finely anyway, and the feet of walls show what lies beyond
-  // them.
-  if (blur >= least) rect.marched = 4;
   float margin = std::ceil(std::clamp(4 * blur, 4.0f, 0.15f * std::max(size.x, size.y) + 4));
   margin = std::min(margin, std::floor(0.5f * (static_cast<float>(texture_limit) - std::max(size.x, size.y)) - 8));
   margin = std::max(margin, 0.0f);
   // Snapped to whole coarse pixels, so that a standing image does not shimmer when its rectangle grows.
   const Vec2 lower = (screen.lower * 0.5f + 0.5f) * size - margin;
   const Vec2 upper = (screen.upper * 0.5f + 0.5f) * size + margin;
-  const auto step = static_cast<float>(std::max(rect.coarse, rect.marched));
+  const auto step = static_cast<float>(rect.coarse);
   const Vec2 first = step * glm::floor(lower / step), last = step * glm::ceil(upper / step);
   rect.origin = first;
   rect.width = std::max(static_cast<int>(last.x - first.x), 1);

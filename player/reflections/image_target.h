@@ -14,7 +14,6 @@ struct ImageRect {
   Vec2 origin{0};             // lower left corner, pixels of the view
   int width = 0, height = 0;  // pixels of the view
   int coarse = 1;             // of them along a side of a pixel of M * K, where the lobe is wide: 1, 2 or 4
-  int marched = 1;            // of M, where the lobe is wide or the reflector is not seen: 1 or 4
 };
 
 // Where the frame shows a reflector: its stencil holds `value` in `bits`. value 0: the stencil does not tell.

@@ -20,9 +20,9 @@ inline constexpr int kShows = 9;
 inline bool is_survey(Show show) {
   return show >= Show::kLux;
 }
-// How M is made: as the bake chose; by marching rays through radiance maps; by drawing the maps' meshes; by drawing the
-// mirrored scene; or not at all. A reflector without maps is always drawn as the mirrored scene.
-enum class Reflections { kChosen, kMarch, kMesh, kGeometry, kOff };
+// How M is made: as the bake chose, which is by the meshes of radiance maps where a reflector has maps; by drawing the
+// mirrored scene; or not at all.
+enum class Reflections { kChosen, kGeometry, kOff };
 // How wide K is: by the distance of what is reflected, or a mirror's.
 enum class Blur { kDistance, kOff };
 

@@ -25,7 +25,6 @@ class GpuMapMeshes {
  public:
   GpuMapMeshes() = default;
   explicit GpuMapMeshes(std::size_t count) : meshes_(count) {}
-  bool empty() const { return meshes_.empty(); }
   const GpuMapMesh& get(std::size_t i, std::span<const MapMesh> all);
   std::size_t bytes() const { return bytes_; }
 

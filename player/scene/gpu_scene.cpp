@@ -204,7 +204,7 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices, bool sets_kn
     out.first_index = static_cast<std::uint32_t>(indices.size());
     out.index_count = static_cast<std::uint32_t>(r.indices.size());
     indices.insert(indices.end(), r.indices.begin(), r.indices.end());
-    out.elements = group_by_element(r, pack_.radiance_maps);
+    if (!pack_.map_meshes.empty()) out.elements = group_by_element(r, pack_.radiance_maps);
     if (sets_known) out.seen = seen_in(pack_, i);
     reflectors_.push_back(std::move(out));
   }

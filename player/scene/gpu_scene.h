@@ -10,6 +10,7 @@
 #include "player/gpu/buffer.h"
 #include "player/gpu/device.h"
 #include "player/images/scene_images.h"
+#include "player/navigation/lamps.h"
 #include "player/navigation/view.h"
 #include "player/scene/fewer_triangles.h"
 #include "player/scene/frame_options.h"
@@ -78,6 +79,7 @@ class GpuScene {
   // In the background the light of a lamp that moved comes later, coarse before fine, and maps follow lamps one after
   // the other: whether the next set_lamps() and the frame after it show more of it.
   bool has_live_news() const;
+  bool lamps_moved() const { return !std::ranges::all_of(lamps_, is_rest); }
   // What is to be told of lamps that moved, each once.
   std::vector<LiveReport> take_live_reports();
 
@@ -171,13 +173,11 @@ class GpuScene {
   Result<bool> bring_maps(const GpuReflector& reflector);
   // The same of a curved reflector: whether its map is there.
   Result<bool> bring_surround_map(std::uint32_t index);
-  // To march through, of an element of the reflector; layers as its maps.
+  // Of an element of the reflector; layers as its maps.
   const MapArray& map_array(const GpuReflector& reflector, std::size_t element) const {
     return images_->maps(reflector.index).elements[element];
   }
-  // Whether the pack has meshes of its radiance maps; that of Pack::radiance_maps[index], uploaded on first use and
-  // kept.
-  bool has_map_meshes() const { return !map_meshes_.empty(); }
+  // Of Pack::radiance_maps[index], uploaded on first use and kept.
   const GpuMapMesh& map_mesh(std::uint32_t index) { return map_meshes_.get(index, pack_.map_meshes); }
   const SurroundTextures& surround_map(std::uint32_t index) const { return images_->surround(index); }
   // Of Pack::lightmaps with all that the bake knows; null: not yet.

@@ -120,17 +120,9 @@ MapFactors GpuScene::factors_of_maps() const {
   for (std::size_t g = 0; g < pack_.light_groups.size(); ++g)
     for (const std::uint32_t m : pack_.light_groups[g].materials)
       out.materials[m] = is_rest(lamps_[g]) ? lights_[g] : Vec3(0);
-  const auto that_list = [&](const std::vector<std::uint32_t>& emitters) {
-    std::vector<std::uint32_t> reflectors;
-    for (const GpuReflector& r : reflectors_)
-      if (std::ranges::any_of(r.listed,
-                              [&](std::uint32_t e) { return !emitters_[e].empty() && contains(emitters, e); }))
-        reflectors.push_back(r.index);
-    return reflectors;
-  };
   for (std::size_t g = 0; g < pack_.light_groups.size(); ++g)
     if (const LightGroup& group = pack_.light_groups[g]; !is_rest(lamps_[g]))
-      out.moved.push_back(std::make_shared<const MovedLamp>(pack_, group, lamps_[g], that_list(group.emitters)));
+      out.moved.push_back(std::make_shared<const MovedLamp>(pack_, group, lamps_[g]));
   if (!out.moved.empty()) out.geometry = geometry_serial_;
   for (int c = 0; c < 3; ++c)
     if (baked_.sky()[c] > 0) out.sky[c] = pack_.sky[c] / baked_.sky()[c];

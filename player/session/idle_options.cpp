@@ -97,9 +97,9 @@ const Rule kRules[] = {
     {"--reflections",
      [](const Pack& pack, const PlayArguments& a) -> const char* {
        if (pack.reflectors.empty() && pack.curved_reflectors.empty()) return "the pack has no reflectors";
-       const bool needs_maps = a.frame.reflections == Reflections::kMarch || a.frame.reflections == Reflections::kMesh;
-       return needs_maps && !has_maps(pack) ? "the pack has no radiance maps: its mirrors are drawn as geometry"
-                                            : nullptr;
+       return a.frame.reflections == Reflections::kGeometry && !has_maps(pack)
+                  ? "the pack has no radiance maps: its mirrors are drawn as geometry"
+                  : nullptr;
      }},
     {"--shade", no_movers},
     {"--time",

@@ -12,11 +12,8 @@ inline constexpr Named<ToneCurve> kToneCurves[] = {{"aces", ToneCurve::kAces}, {
 inline constexpr Named<Show> kStages[] = {{"D", Show::kD},         {"M", Show::kM},     {"MK", Show::kMK},
                                           {"MKR", Show::kMKR},     {"all", Show::kAll}, {"charts", Show::kCharts},
                                           {"error", Show::kError}, {"lux", Show::kLux}, {"texels", Show::kTexels}};
-inline constexpr Named<Reflections> kReflections[] = {{"chosen", Reflections::kChosen},
-                                                      {"geometry", Reflections::kGeometry},
-                                                      {"march", Reflections::kMarch},
-                                                      {"mesh", Reflections::kMesh},
-                                                      {"off", Reflections::kOff}};
+inline constexpr Named<Reflections> kReflections[] = {
+    {"chosen", Reflections::kChosen}, {"geometry", Reflections::kGeometry}, {"off", Reflections::kOff}};
 inline constexpr Named<Blur> kBlurs[] = {{"distance", Blur::kDistance}, {"off", Blur::kOff}};
 inline constexpr Named<MoverLights> kMoverLights[] = {{"harmonics", MoverLights::kHarmonics},
                                                       {"shadowed", MoverLights::kShadowed},

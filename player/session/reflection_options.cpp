@@ -26,8 +26,8 @@ OptionValue budget(float& ms) {
 std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
   return {
       {"--reflections", group,
-       "What reflectors show: as the bake chose, rays marched through their radiance maps, the maps' meshes, the "
-       "mirrored scene drawn again, or nothing. Reflectors without maps always show the mirrored scene",
+       "What reflectors show: as the bake chose, which is their radiance maps where they have some, the mirrored scene "
+       "drawn again, or nothing",
        choice(out.frame.reflections, kReflections), Use::kRare, "reflections"},
       {"--orders", group,
        "Reflectors on the way of a reflection: 1 shows a mirror in a mirror as its diffuse light only. Without it: 2, "

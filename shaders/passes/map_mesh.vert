@@ -24,5 +24,5 @@ void main() {
   gl_Position = u_clip_from_mirrored * vec4(point.xyz + u_behind * from_eye, point.w);
   // No far plane: neither the sky nor what only maps know of is beyond it.
   if (u_near > 0.0) gl_Position.z = gl_Position.w - 2.0 * u_near * point.w;
-  else if (disparity <= 0.0) gl_Position.z = 0.999999 * gl_Position.w;
+  else gl_Position.z = min(gl_Position.z, 0.999999 * gl_Position.w);
 }

@@ -112,13 +112,15 @@ TEST_F(Blurred, WhatIsHiddenBlursIntoWhatIsSeen) {
   EXPECT_LT(worst, 0.5f) << "of 5 to 35";
 }
 
-// A low red wall stands on the reflector's right edge, before a green one far away. No map tells what lies beyond the
-// edge: there it is as at the edge, and no green shines into the wall's foot.
-TEST_F(Blurred, BeyondItsEdgeAReflectorShowsWhatItShowsThere) {
-  const Pack pack = blurring_pack(0.3f, {{-3, 0, -1}}, [](const Vec2& p, const Vec3& d) {
+// A low red wall stands on the reflector's right edge, before a green one far away. What maps show past the edge is
+// behind that wall, and no green shines into its foot.
+TEST_F(Blurred, BesideAWallAtItsEdgeMapsShowNothingOfWhatLiesBehind) {
+  Pack pack = blurring_pack(0.3f, {{-3, 0, -1}}, [](const Vec2& p, const Vec3& d) {
     const float z = (1 - p.x) / d.x * d.z;
     return d.x > 0 && z < 0.3f ? Seen{kRed, z} : Seen{kGreen, 3};
   });
+  pack.materials.resize(2);
+  add_quad(pack, {1, -1, 0}, {0, 0, 0.3f}, {0, 2, 0}, 1, -1);
   const Picture p = draw_mk(pack, camera_at({-0.9f, 0, 1}, {0.8f, 0, 0}));
   expect_red_feet(p);
 }

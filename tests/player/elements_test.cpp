@@ -2,7 +2,7 @@
 // levels.
 #include "formats/core/half.h"
 #include "formats/query/camera.h"
-#include "player/images/relief.h"
+#include "player/images/map_levels.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {

@@ -130,8 +130,9 @@ void FrameTest::SetUp() {
   renderer_ = std::move(*renderer);
 }
 
-Picture FrameTest::draw(const Pack& pack, const Camera& camera, int width, int height, const FrameOptions& options) {
-  auto scene = GpuScene::create(pack, device_);
+Picture FrameTest::draw(Pack pack, const Camera& camera, int width, int height, const FrameOptions& options) {
+  if (pack.map_meshes.empty()) add_pixel_meshes(pack);
+  auto scene = GpuScene::create(std::move(pack), device_);
   EXPECT_TRUE(scene) << (scene ? "" : scene.error().text());
   if (!scene) return {};
   const View view = make_view(camera, width, height, (*scene)->bounds());

@@ -50,8 +50,8 @@ struct Picture {
 class FrameTest : public ::testing::Test {
  protected:
   void SetUp() override;
-  // Draws a pack; a failure fails the test and gives an empty picture.
-  Picture draw(const Pack& pack, const Camera& camera, int width, int height, const FrameOptions& options = {});
+  // Draws a pack, with add_pixel_meshes() where it has none; a failure fails the test and gives an empty picture.
+  Picture draw(Pack pack, const Camera& camera, int width, int height, const FrameOptions& options = {});
 
   std::unique_ptr<gpu::HeadlessContext> context_;
   gpu::Device device_;

@@ -94,7 +94,7 @@ TEST_F(Play, SeveralCamerasGoIntoAFolder) {
 TEST_F(Play, EveryStageAndOption) {
   for (const char* options :
        {"--show M", "--show MK", "--show MKR", "--show D", "--show charts", "--tonemap none", "--maps 1", "--blur off",
-        "--reflections march", "--reflections geometry", "--reflections off", "--exposure -3.5", "--exposure auto"}) {
+        "--reflections geometry", "--reflections off", "--exposure -3.5", "--exposure auto"}) {
     EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png"))
         << options;
   }
@@ -106,13 +106,13 @@ TEST_F(Play, StatsTellHowTheFramesWereDrawn) {
   named.cameras[0].name = "caf\xe9";
   named.provenance = R"({"options": {"eyes": "file", "eye_points": [[1e4, 0, 0]]}})";  // far from any camera
   ASSERT_TRUE(write_pack(folder() / "named.oriel", named));
-  ASSERT_EQ(run("named.oriel --offscreen --size 32x18 --camera 0 --reflections march --blur off --stats s.json").code,
-            0);
+  ASSERT_EQ(
+      run("named.oriel --offscreen --size 32x18 --camera 0 --reflections geometry --blur off --stats s.json").code, 0);
   std::ifstream in(folder() / "s.json");
   std::stringstream text;
   text << in.rdbuf();
   for (const char* found :
-       {"\"reflections\": \"march\"", "\"blur\": \"off\"", "\"holes\":", "\"in_zone\": false", "caf"})
+       {"\"reflections\": \"geometry\"", "\"blur\": \"off\"", "\"holes\":", "\"in_zone\": false", "caf"})
     EXPECT_NE(text.str().find(found), std::string::npos) << found << " in " << text.str();
 }
 

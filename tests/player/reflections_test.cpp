@@ -341,7 +341,7 @@ TEST_F(Reflected, EverySizeEveryAngleEveryMode) {
       map.lower *= scale;
       map.upper *= scale;
     }
-    for (const Reflections mode : {Reflections::kMarch, Reflections::kGeometry})
+    for (const Reflections mode : {Reflections::kChosen, Reflections::kGeometry})
       for (const Vec3& eye : {Vec3(0, 0, 1), Vec3(3, 0, 1e-3f), Vec3(3, 0, 1e-6f), Vec3(0, 0, 0), Vec3(0.2f, 0, -1),
                               Vec3(0, 0, 3000), Vec3(900, 0, 1)}) {
         FrameOptions options;
@@ -350,9 +350,9 @@ TEST_F(Reflected, EverySizeEveryAngleEveryMode) {
         const Picture p = draw(pack, camera_before(eye * scale, {0.01f * scale, 0, 0}), 48, 32, options);
         EXPECT_TRUE(p.finite()) << scale << " " << eye.x << " " << eye.z;
       }
-    FrameOptions march;
-    march.show = Show::kM;
-    EXPECT_NEAR(draw(pack, camera_before(Vec3(0, 0, 1) * scale), 48, 32, march).at(24, 16).x, kReflectedGrey.x, 1e-3f)
+    FrameOptions image;
+    image.show = Show::kM;
+    EXPECT_NEAR(draw(pack, camera_before(Vec3(0, 0, 1) * scale), 48, 32, image).at(24, 16).x, kReflectedGrey.x, 1e-3f)
         << scale;
   }
 }

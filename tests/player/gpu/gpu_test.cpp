@@ -20,30 +20,13 @@ namespace oriel {
 namespace {
 using gpu::Dialect;
 
-constexpr const char* kPasses[] = {"depth",
-                                   "reflector_mask",
-                                   "reflector_emitters",
-                                   "reflector_emitters_sharp",
-                                   "scene",
-                                   "transparent",
-                                   "march",
-                                   "curved_light",
-                                   "curved_surface",
-                                   "screen_curved",
-                                   "screen_pull",
-                                   "screen_push",
-                                   "screen_convolve",
-                                   "reflector_compose",
-                                   "reflector_convolve",
-                                   "screen_luminance",
-                                   "screen_tonemap",
-                                   "mover_light",
-                                   "mover_bright_light",
-                                   "glass",
-                                   "glass_shape",
-                                   "glass_surface",
-                                   "screen_behind",
-                                   "screen_glass"};
+constexpr const char* kPasses[] = {
+    "depth",           "reflector_mask",    "reflector_emitters", "reflector_emitters_sharp",
+    "scene",           "transparent",       "map_mesh",           "curved_light",
+    "curved_surface",  "screen_curved",     "screen_pull",        "screen_push",
+    "screen_convolve", "reflector_compose", "reflector_convolve", "screen_luminance",
+    "screen_tonemap",  "mover_light",       "mover_bright_light", "glass",
+    "glass_shape",     "glass_surface",     "screen_behind",      "screen_glass"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();

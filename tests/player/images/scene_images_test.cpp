@@ -34,6 +34,7 @@ Pack walls() {
   add_mirror(pack, {{0, 0, -1}, {0.3f, 0, -1}}, kSide, [](const Vec2& p, const Vec3&) {
     return Seen{{200 + 100 * p.x, 200, 200}, 2.0f};
   });
+  add_pixel_meshes(pack);
   Material mirror;
   mirror.metallic = 1;
   mirror.roughness = 0;

@@ -59,7 +59,7 @@ TEST_F(Halves, ShowWhatFloatsDo) {
 
 // Where a mirror shows it alpha tells it from a hole.
 TEST_F(Halves, ShowTheSkyInMirrors) {
-  for (const Reflections way : {Reflections::kGeometry, Reflections::kMarch}) {
+  for (const Reflections way : {Reflections::kGeometry, Reflections::kChosen}) {
     Pack pack;
     add_mirror(pack, {{0, 0, -3}}, 64, [](const Vec2&, const Vec3&) { return Seen{{40, 50, 60}, INFINITY}; });
     pack.materials.resize(1);

@@ -77,7 +77,7 @@ TEST(IdleOptions, TheReasonIsTold) {
   arguments.given = {"--maps"};
   EXPECT_THAT(idle_options({}, arguments),
               ::testing::ElementsAre("--maps has no effect: the pack has no radiance maps"));
-  arguments.frame.reflections = Reflections::kMarch, arguments.given = {"--reflections"};
+  arguments.frame.reflections = Reflections::kGeometry, arguments.given = {"--reflections"};
   Pack mirrors = testing::tiny_mapped_pack();
   mirrors.radiance_maps.clear();
   EXPECT_THAT(idle_options(mirrors, arguments),
