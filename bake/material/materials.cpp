@@ -31,6 +31,14 @@ void choose_image_lobe(MaterialSummary& s, float base_roughness) {
   s.alpha = s.roughness * s.roughness;
 }
 
+}  // namespace
+
+Vec3 dielectric_f0(const SceneMaterial& m) {
+  return glm::min(static_cast<float>(dielectric_f0(double{m.ior})) * m.specular_color, Vec3(1)) * m.specular;
+}
+
+namespace {
+
 // The factors alone (docs/notes/conventions.md, "Materials").
 MaterialSummary from_factors(const SceneMaterial& m) {
   MaterialSummary s;
@@ -38,8 +46,7 @@ MaterialSummary from_factors(const SceneMaterial& m) {
   s.metallic = m.metallic;
   s.transmission = m.transmission;
   s.diffuse = (1 - m.metallic) * (1 - m.transmission) * m.base_color;
-  s.f0 = glm::mix(glm::min(static_cast<float>(dielectric_f0(m.ior)) * m.specular_color, Vec3(1)) * m.specular,
-                  m.base_color, m.metallic);
+  s.f0 = glm::mix(dielectric_f0(m), m.base_color, m.metallic);
   s.f90 = glm::mix(m.specular, 1.0f, m.metallic);
   s.curve = {.ior = m.ior, .schlick = m.metallic};
   s.coat = m.coat;

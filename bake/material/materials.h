@@ -32,6 +32,9 @@ struct MaterialSummary {
 // same scene gives the same bytes.
 std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 
+// Of its dielectric, by its factors: what metals have instead is their colour.
+Vec3 dielectric_f0(const SceneMaterial& material);
+
 struct MaterialOptions {
   KernelOptions kernel;
   SliceOptions slices;

@@ -25,6 +25,7 @@ void remove_textures(Pack& pack) {
   pack.textures.clear();
   for (Material& m : pack.materials) m.base_color_texture = -1;
   pack.emission_textures.clear();
+  pack.metalness.clear();
 }
 
 void remove_normal_textures(Pack& pack) {
@@ -71,13 +72,14 @@ void remove_walk_grids(Pack& pack) {
   pack.reflected_sets = {};
 }
 
-const std::array<Removable, 14>& removables() {
-  static const std::array<Removable, 14> kAll = {{
+const std::array<Removable, 15>& removables() {
+  static const std::array<Removable, 15> kAll = {{
       {"directions of the lightmap", {}, remove_directions},
       {"textures", {kTextureSection}, remove_textures},
       {"normal maps", {kNormalTextureSection}, remove_normal_textures},
       {"solid glass", {kSolidSection}, [](Pack& pack) { pack.solids.clear(); }},
       {"emission textures", {kEmissionTextureSection}, [](Pack& pack) { pack.emission_textures.clear(); }},
+      {"metalness", {kMetalnessSection}, [](Pack& pack) { pack.metalness.clear(); }},
       {"radiance maps",
        {kReflectorSection, kRadianceMapSection, kMapMeshSection, kEmitterSection, kFrostedPaneSection},
        remove_reflectors},

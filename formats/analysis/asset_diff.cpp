@@ -57,6 +57,9 @@ void add_materials(const Pack& pack, AssetList& list) {
   for (const EmissionTexture& e : pack.emission_textures)
     list.add("picture", pack.materials[e.material].name,
              {{"texture", texels_of(pack.textures, static_cast<int>(e.texture))}});
+  for (const Metalness& m : pack.metalness)
+    list.add("metalness", pack.materials[m.material].name,
+             {{"texture", texels_of(pack.textures, m.texture)}, {"dielectric", numbers_of(m.dielectric)}});
 }
 
 void add_lamps(const Pack& pack, AssetList& list) {

@@ -61,4 +61,13 @@ struct EmissionTexture {
   Vec3 mean{1};                // of its texels over the material's surfaces, >= 0; 0 where it does not shine
 };
 
+// A material whose reflectance at normal incidence differs from place to place: that of a metal, which is the base
+// colour, or `dielectric`.
+struct Metalness {
+  std::uint32_t material = 0;  // into Pack::materials, whose metallic and f0 are the averages
+  std::int32_t texture = -1;   // into Pack::textures, by the base colour's coordinates: alpha is how much is metal.
+                               // -1: all as much as Material::metallic
+  Vec3 dielectric{0.04f};      // [0,1]
+};
+
 }  // namespace oriel

@@ -68,6 +68,7 @@ Result<Bytes> scene_piece(const Pack& pack) {
   out.one(kMeshSection, pack.mesh);
   out.list(kMaterialSection, pack.materials);
   out.list(kEmissionTextureSection, pack.emission_textures);
+  out.list(kMetalnessSection, pack.metalness);
   for (const LightmapPage& page : pack.lightmaps) out.one(kLightmapSection, coarse_page(page));
   out.list(kReflectorSection, without_maps(pack.reflectors));
   out.list(kCurvedReflectorSection, pack.curved_reflectors);

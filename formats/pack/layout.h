@@ -107,9 +107,10 @@ inline constexpr std::uint32_t kLightGroupSection = fourcc("LGRP");
 inline constexpr std::uint32_t kPageGroupsSection = fourcc("GLMP");
 inline constexpr std::uint32_t kDaySection = fourcc("DAYH");
 inline constexpr std::uint32_t kSkyMapSection = fourcc("SKYM");
+inline constexpr std::uint32_t kMetalnessSection = fourcc("METL");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 31> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 32> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -141,6 +142,7 @@ inline constexpr std::array<SectionKind, 31> kSectionKinds = {{
     {kPageGroupsSection, "light of groups on a page", true, false, true},
     {kDaySection, "hours of a day", true, false, false},
     {kSkyMapSection, "sky map", true, false, false},
+    {kMetalnessSection, "metalness", true, false, false},
 }};
 
 // nullptr for a kind that this version does not know.

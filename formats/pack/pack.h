@@ -55,6 +55,7 @@ struct Pack {
   std::vector<Material> materials;
   std::vector<SolidGlass> solids;                  // by rising material
   std::vector<EmissionTexture> emission_textures;  // by rising material
+  std::vector<Metalness> metalness;                // by rising material
   std::vector<Texture> textures;
   std::vector<Texture> normal_textures;
   std::vector<LightmapPage> lightmaps;

@@ -74,6 +74,10 @@ void describe(Serial& s, EmissionTexture& emission) {
   s(emission.material, emission.texture, emission.mean);
 }
 
+void describe(Serial& s, Metalness& metalness) {
+  s(metalness.material, metalness.texture, metalness.dielectric);
+}
+
 void describe(Serial& s, Reflector& r) {
   s(r.name, r.material, r.pack_from_reflector, r.lower, r.upper, r.area_m2, r.flatness_m, r.elements_x, r.elements_y,
     r.first_map, r.map_count);

@@ -12,6 +12,7 @@ void describe(Serial& s, Mesh& mesh);
 void describe(Serial& s, Material& material);
 void describe(Serial& s, SolidGlass& solid);
 void describe(Serial& s, EmissionTexture& emission);
+void describe(Serial& s, Metalness& metalness);
 void describe(Serial& s, Texture& texture);
 void describe(Serial& s, LightmapPage& page);
 void describe(Serial& s, Reflector& reflector);
@@ -109,6 +110,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.each(kPageGroupsSection, pack.page_groups);
   v.one(kDaySection, pack.day, !pack.day.empty());
   v.one(kSkyMapSection, pack.sky_map, pack.sky_map.width > 0);
+  v.list(kMetalnessSection, pack.metalness);
 }
 inline void describe(Serial& s, Vec3& sky) {
   s(sky);

@@ -191,6 +191,22 @@ void validate_emission_textures(const Pack& pack, IssueList& list) {
   }
 }
 
+void validate_metalness(const Pack& pack, IssueList& list) {
+  list.in_section(kMetalnessSection);
+  for (std::size_t i = 0; i < pack.metalness.size(); ++i) {
+    const Metalness& m = pack.metalness[i];
+    if (m.material >= pack.materials.size() || m.texture < -1 ||
+        (m.texture >= 0 && static_cast<std::size_t>(m.texture) >= pack.textures.size()))
+      list.error(214, "metalness {}: found material {} and texture {}, expected less than {} and {}, or texture -1", i,
+                 m.material, m.texture, pack.materials.size(), pack.textures.size());
+    if (i > 0 && m.material <= pack.metalness[i - 1].material)
+      list.error(214, "metalness {}: found material {} after {}, expected rising ones", i, m.material,
+                 pack.metalness[i - 1].material);
+    if (!not_negative(m.dielectric) || max_component(m.dielectric) > 1)
+      list.error(215, "metalness {}: found reflectance {}, expected 0 to 1", i, text_of(m.dielectric));
+  }
+}
+
 void validate_cameras(const Pack& pack, IssueList& list) {
   list.in_section(kCameraSection);
   for (std::size_t i = 0; i < pack.cameras.size(); ++i) validate_camera(i, pack.cameras[i], list);
@@ -234,6 +250,7 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_materials(pack, list);
   validate_solids(pack, list);
   validate_emission_textures(pack, list);
+  validate_metalness(pack, list);
   validate_textures(pack, pixels, list);
   validate_lightmaps(pack, pixels, list);
   validate_sharp_light(pack, list);

@@ -26,7 +26,7 @@ void apply(const RasterState& state) {
   enable(GL_STENCIL_TEST, state.stencil_func != GL_ALWAYS || state.stencil_write != 0);
   glStencilFunc(state.stencil_func, state.stencil_ref, state.stencil_read);
   glStencilMask(state.stencil_write);
-  glStencilOp(GL_KEEP, GL_KEEP, state.stencil_pass);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
 }
 
 }  // namespace oriel::gpu

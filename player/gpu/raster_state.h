@@ -18,13 +18,12 @@ struct RasterState {
   Blend blend = Blend::kNone;
   Cull cull = Cull::kNone;
   bool mirrored = false;  // fronts are clockwise on the screen
-  // With stencil_func GL_ALWAYS and stencil_write 0 the stencil is off. What stencil_pass does to passing pixels it
-  // does in the bits of stencil_write.
+  // With stencil_func GL_ALWAYS and stencil_write 0 the stencil is off. Passing pixels get stencil_ref in the bits of
+  // stencil_write.
   GLenum stencil_func = GL_ALWAYS;
   GLint stencil_ref = 0;
   GLuint stencil_read = 0xff;
   GLuint stencil_write = 0;
-  GLenum stencil_pass = GL_REPLACE;
 };
 
 void apply(const RasterState& state);

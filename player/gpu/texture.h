@@ -30,7 +30,6 @@ inline constexpr TextureFormat kRgb9e5{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9
 inline constexpr TextureFormat kR32f{GL_R32F, GL_RED, GL_FLOAT, 4};
 // These two are extensions there (EXT_texture_norm16).
 inline constexpr TextureFormat kR16{GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2};
-inline constexpr TextureFormat kRg16{GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4};
 // In perspective as fine as a float for what is farther than twice the near plane, and half its bytes.
 inline constexpr TextureFormat kDepthStencil{GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, 4};
 inline constexpr TextureFormat kDepth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};

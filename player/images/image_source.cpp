@@ -40,7 +40,6 @@ ImageSource::ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages>
       map_light_(std::make_unique<MapLight>(pack)) {
   for (const Material& m : pack.materials)
     if (m.base_color_texture >= 0) users_[static_cast<std::size_t>(m.base_color_texture)].push_back(m);
-  for (const EmissionTexture& e : pack.emission_textures) users_[e.texture].push_back(pack.materials[e.material]);
   for (const Texture& texture : pack.textures) textures_.push_back(size_of(texture));
   for (const Texture& texture : pack.normal_textures) normal_textures_.push_back(size_of(texture));
   for (const LightmapPage& page : pack.lightmaps) {

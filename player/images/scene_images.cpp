@@ -156,14 +156,14 @@ void SceneImages::ask_for_more() {
 // Whether maps that are there are to be made anew for lamps as they shine now.
 bool SceneImages::wants_light(const Item& item) const {
   return is_map(item.name.kind) && item.level >= 0 && item.level == item.target && !is_lit(item.name) &&
-         (options_.background || item.asked_for);
+         (options_.background || item.asked_for) && (item.name.kind != ImageKind::kMaps || source_.geometry() == 0);
 }
 
 // Unless there is no room for it yet.
 void SceneImages::begin(std::size_t index) {
   Item& item = items_[index];
   const int level = item.target;
-  const auto light_alone = [&] { return item.level == level && item.geometry == source_.geometry(); };
+  const auto light_alone = [&] { return item.level == level && item.geometry == geometry_of(item.name); };
   const auto bytes_of = [&] {
     return light_alone() ? source_.light_bytes(item.name, level) : item.bytes[static_cast<std::size_t>(level)];
   };
@@ -278,7 +278,7 @@ void SceneImages::settle(Upload& upload) {
     if (item.level != upload.level) return;  // they have left meanwhile
   }
   item.lights = upload.image.lights;
-  if (!upload.light_alone) item.geometry = upload.image.geometry;
+  if (!upload.light_alone) item.geometry = item.name.kind == ImageKind::kMaps ? 0 : upload.image.geometry;
   if (upload.light_alone) return item.name.kind == ImageKind::kMaps ? settle_maps(upload) : settle_surround(upload);
   if (item.level >= 0) drop(item);
   item.level = upload.level;

@@ -69,7 +69,7 @@ class SceneImages {
   bool has(const ImageName& name) const { return at(name).level >= 0; }
   // Whether maps that are there show lamps as they shine now.
   bool is_lit(const ImageName& maps) const {
-    return at(maps).lights == source_.lights() && at(maps).geometry == source_.geometry();
+    return at(maps).lights == source_.lights() && at(maps).geometry == geometry_of(maps);
   }
   // Whether any came to do so in the background since a frame was begun.
   bool has_light_news() const { return light_came_; }
@@ -133,6 +133,10 @@ class SceneImages {
   void drop(Item& item);
   void ask_for_more();
   bool wants_light(const Item& item) const;
+  // Radiance maps are not shown while a lamp is elsewhere.
+  std::uint64_t geometry_of(const ImageName& maps) const {
+    return maps.kind == ImageKind::kMaps ? 0 : source_.geometry();
+  }
   void begin(std::size_t item);
   void receive(std::vector<Error>& errors);
   void give_up(const Made& made, std::vector<Error>& errors);

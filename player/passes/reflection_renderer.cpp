@@ -215,11 +215,7 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
     const bool whole = !maps && (!reflector.seen || !sets_hold(work.context, target));
     timed(clock, Pass::kFill, [&] { convolve_pass_.cut(work.context, image, depth, whole); });
   }
-  if (maps || blurred)
-    timed(clock, Pass::kFill, [&] {
-      const auto holes = maps && !blurred ? FillPass::Holes::kHidden : FillPass::Holes::kBeside;
-      fill_pass_.draw({rect, image.target, holes, blurred}, stats);
-    });
+  if (maps || blurred) timed(clock, Pass::kFill, [&] { fill_pass_.draw({rect, image.target, blurred}, stats); });
   if (rect.coarse > 1) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw(work.context, image); });
   target.bind(view);
   timed(clock, blurred ? Pass::kConvolve : Pass::kCompose, [&] { compose(work.context, target, marked, image); });

@@ -154,6 +154,7 @@ void ReflectorPass::set_surface(const gpu::Program& program, const FrameContext&
   const auto row = material.fresnel_map;
   const FresnelMap* fresnel = row < 0 ? nullptr : &scene.pack().fresnel_maps[static_cast<std::size_t>(row)];
   scene.reflectance_tables().bind(1);
+  set_place_reflectance(program, scene, reflector.material, 7);
   scene.bind_geometry();
   program.set("u_clip_from_pack", view.clip_from_pack);
   program.set("u_eye", view.eye);

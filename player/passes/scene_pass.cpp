@@ -37,7 +37,8 @@ void set_frame(const gpu::Program& program, const FrameContext& context) {
 
 bool is_plain(const GpuScene& scene, std::uint32_t material) {
   const Material& m = scene.pack().materials[material];
-  return m.normal_texture < 0 && cutoff_of(m) < 0 && !m.unlit && scene.emission_texture(material) == nullptr;
+  return m.normal_texture < 0 && cutoff_of(m) < 0 && !m.unlit && scene.emission_texture(material) == nullptr &&
+         scene.metalness(material) == nullptr;
 }
 
 // A see-through part, or a body of glass.

@@ -15,6 +15,23 @@ float pixels_per_tangent(const View& view) {
   return 0.5f * static_cast<float>(view.height) / view.tangents.y;
 }
 
+// What shaders/passes/screen_blur_width.glsl asks for, to the program in use.
+void set_blur_width(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image) {
+  const View& view = context.view;
+  const Mat4 view_from_reflector = view.view_from_pack * image.reflector.pack_from_reflector;
+  const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
+  const Vec2 aside = view.centre / view.tangents;
+  program.set("u_ndc_from_image", ndc_from_image(image.rect, view) + Vec4(0, 0, aside.x, aside.y));
+  program.set("u_tangents", view.tangents);
+  program.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
+  program.set("u_plane_normal", normal);
+  program.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
+  program.set("u_farthest", 1e4f * std::max(context.scene.bounds().radius(), 1e-12f));
+  program.set("u_median", image.kernel.median);
+  program.set("u_coarse", image.rect.coarse);
+  program.set("u_pixels_per_tangent", pixels_per_tangent(view));
+}
+
 }  // namespace
 
 ImageRect choose_image(const NdcRect& screen, float median, const View& view, int texture_limit, bool coarse) {
@@ -46,22 +63,6 @@ Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   ORIEL_TRY(pass.program_, gpu::Program::create("screen_convolve", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
-}
-
-void set_blur_width(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image) {
-  const View& view = context.view;
-  const Mat4 view_from_reflector = view.view_from_pack * image.reflector.pack_from_reflector;
-  const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
-  const Vec2 aside = view.centre / view.tangents;
-  program.set("u_ndc_from_image", ndc_from_image(image.rect, view) + Vec4(0, 0, aside.x, aside.y));
-  program.set("u_tangents", view.tangents);
-  program.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
-  program.set("u_plane_normal", normal);
-  program.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
-  program.set("u_farthest", 1e4f * std::max(context.scene.bounds().radius(), 1e-12f));
-  program.set("u_median", image.kernel.median);
-  program.set("u_coarse", image.rect.coarse);
-  program.set("u_pixels_per_tangent", pixels_per_tangent(view));
 }
 
 void set_convolution(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image) {

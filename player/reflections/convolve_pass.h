@@ -11,9 +11,6 @@ namespace oriel {
 // screen: what the reflector covers.
 ImageRect choose_image(const NdcRect& screen, float median, const View& view, int texture_limit, bool coarse = false);
 
-// What shaders/passes/screen_blur_width.glsl asks for, to the program in use.
-void set_blur_width(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image);
-
 // What shaders/passes/screen_convolve.glsl asks for, to the program in use: target.filled, all levels, and K in texture
 // units 0 and 2.
 void set_convolution(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image);
@@ -21,8 +18,8 @@ void set_convolution(const gpu::Program& program, const FrameContext& context, c
 class ConvolvePass {
  public:
   static Result<ConvolvePass> create(gpu::Dialect dialect);
-  // Pixels beside the reflector (its bounds) become holes of target.sharp where something stands before its plane: of
-  // mirrored geometry, which knows no edge. depth: of what the reflector is seen in, context.view. whole: the image is
+  // Pixels beside the reflector (its bounds) become holes of target.sharp where something stands before its plane:
+  // images know no edge. depth: of what the reflector is seen in, context.view. whole: the image is
   // of the whole scene, else of what is seen in the reflector, and past its edges what misses that is a hole too.
   void cut(const FrameContext& context, const ReflectedImage& image, const gpu::Texture2d& depth, bool whole) const;
   // target.filled, all levels, to target.blurred.

@@ -16,6 +16,7 @@ enum CurvedUnit {
   kCurvedPlaces = 5,
   kCurvedNormals = 6,
   kCurvedShaded = 7,
+  kCurvedBase = 8,  // and metalness after it
 };
 
 // Radius (tangent) that holds half of a lobe, from which on its taps find their own distances: roughness 0.17 or so.
@@ -195,6 +196,7 @@ void CurvedPass::set_reflectance(const gpu::Program& program, const FrameContext
                                  const GpuCurvedReflector& reflector) const {
   const auto& [scene, view, options, stats] = context;
   set_normals(program, context, reflector);
+  set_place_reflectance(program, scene, reflector.material, kCurvedBase);
   const auto row = scene.pack().materials[reflector.material].fresnel_map;
   scene.reflectance_tables().bind(kCurvedReflectance);
   program.set("u_modulate", options.show == Show::kM || options.show == Show::kMK ? 0 : 1);

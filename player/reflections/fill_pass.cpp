@@ -35,8 +35,8 @@ Result<FillPass> FillPass::create(gpu::Dialect dialect) {
 }
 
 void FillPass::draw(const Fill& fill, FrameStats& stats) const {
-  const auto& [rect, target, holes, with_levels] = fill;
-  const float reach = holes == Holes::kHidden ? kReach : kAll;
+  const auto& [rect, target, blurs] = fill;
+  const float reach = blurs ? kAll : kReach;
   // Levels round up, to a last one of a single pixel: the textures' sizes are powers of two and have as many.
   const int levels = std::bit_width(static_cast<unsigned>(std::max(rect.width, rect.height) - 1)) + 1;
   const auto size_at = [&rect = rect](int level) {
@@ -77,7 +77,7 @@ void FillPass::draw(const Fill& fill, FrameStats& stats) const {
   }
   bind_all_levels(target.sharp, 0, levels);
   bind_all_levels(target.filled, 1, levels);
-  if (with_levels) pull(target.filled, kAll);
+  if (blurs) pull(target.filled, kAll);
 }
 
 }  // namespace oriel

@@ -10,16 +10,13 @@ namespace oriel {
 class FillPass {
  public:
   static Result<FillPass> create(gpu::Dialect dialect);
-  // What a hole is: something that nearer things hid, so that what lies behind flows into it from far around, or a
-  // place beside the reflector, which shows what the reflector does next to it.
-  enum class Holes { kHidden, kBeside };
-  // Fills target.filled from level 0 of target.sharp: no pixel keeps a = 0 unless all have it. Its coarser levels are
-  // averages of the finer ones if with_levels, undefined else.
+  // Fills target.filled from level 0 of target.sharp: no pixel keeps a = 0 unless all have it. What a mirror shows of a
+  // hole is something that nearer things hid, so what lies behind flows into it from far around. In an image that blurs
+  // most holes lie beside the reflector, and show what it does next to them; of that its coarser levels too are made.
   struct Fill {
     const ImageRect& rect;
     const ImageTarget& target;
-    Holes holes = Holes::kHidden;
-    bool with_levels = false;
+    bool blurs = false;
   };
   void draw(const Fill& fill, FrameStats& stats) const;
 

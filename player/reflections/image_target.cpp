@@ -51,7 +51,7 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
   return {};
 }
 
-void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light, GLint stencil) {
+void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light) {
   target.sharp_framebuffer.bind();
   target.sharp_framebuffer.attach_color_level(target.sharp, 0);
   gpu::RasterState state;
@@ -62,7 +62,7 @@ void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& l
   glEnable(GL_SCISSOR_TEST);
   glScissor(0, 0, rect.width, rect.height);
   glClearColor(light.x, light.y, light.z, light.w);
-  glClearStencil(stencil);
+  glClearStencil(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
 }

@@ -53,7 +53,7 @@ struct ReflectedImage {
 Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit, bool halves);
 // Binds the image to be drawn into, with depth and stencil, and fills its rectangle: with a hole, or with light all
 // over.
-void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light = Vec4(0), GLint stencil = 0);
+void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light = Vec4(0));
 // Binds the image, and gives it the stencil (and depth) of the frame of that view, where it lies within.
 void copy_stencil(const ImageTarget& target, const ImageRect& rect, const gpu::Framebuffer& frame, const View& view);
 

@@ -96,8 +96,7 @@ void MeshPass::draw(const FrameContext& context, const ReflectedImage& image, co
   std::vector<Chosen> elements;
   for (std::size_t e = 0; e < reflector.elements.size(); ++e) {
     if (!shows(reflector.elements[e], image_from_reflector)) continue;
-    elements.push_back({e, weigh_maps(reflector.elements[e], scene.pack().radiance_maps, reflected.mirrored_eye,
-                                      options.maps_per_element)});
+    elements.push_back({e, maps_by_angle(reflector.elements[e], scene.pack().radiance_maps, reflected.mirrored_eye)});
   }
   const auto draw_maps = [&](const gpu::RasterState& state, bool first) {
     gpu::apply(state);
@@ -133,8 +132,9 @@ void MeshPass::draw_element(const FrameContext& context, const GpuReflector& ref
   array.light.bind(0);
   array.disparity.bind(1);
   const std::size_t count = std::min(chosen.maps.size(), static_cast<std::size_t>(options.maps_per_element));
-  for (std::size_t i = first ? 0 : count; i < (first ? count : chosen.maps.size()); ++i) {
-    const std::uint32_t layer = chosen.maps[i].map, index = element.maps[layer];
+  // The best last: where an orthographic view has no depths left they are in front all the same.
+  for (std::size_t i = first ? count : chosen.maps.size(); i-- > (first ? 0 : count);) {
+    const std::uint32_t layer = chosen.maps[i], index = element.maps[layer];
     const GpuMapMesh& mesh = scene.map_mesh(index);
     if (mesh.index_count == 0) continue;
     const RadianceMap& map = scene.pack().radiance_maps[index];

@@ -20,7 +20,7 @@ class MeshPass {
   // Of an element, those that suit the eye best first.
   struct Chosen {
     std::size_t element = 0;
-    std::vector<WeighedMap> maps;
+    std::vector<std::uint32_t> maps;  // into ReflectorElement::maps
   };
   void count_holes(gpu::RasterState state) const;
   void draw_element(const FrameContext& context, const GpuReflector& reflector, const Chosen& chosen, bool first) const;

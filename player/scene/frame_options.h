@@ -59,7 +59,7 @@ struct FrameOptions {
   // Foretold time of planar reflectors' images: those that show most for their price are drawn (passes/image_budget.h).
   // At 1280 x 720; kBudgetOfDevice: what suits the device.
   float image_budget_ms = std::numeric_limits<float>::infinity();
-  int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
+  int maps_per_element = 2;  // radiance maps drawn for each reflector element in view, others in their holes; 0: none
   Blur blur = Blur::kDistance;
   bool visible_sets = true;  // draws only what the eye's place may see, where the pack knows
   int samples = 1;           // of a pixel at edges, as many as the device has

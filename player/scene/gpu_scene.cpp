@@ -5,6 +5,7 @@
 #include "formats/core/half.h"
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
+#include "player/scene/image_uses.h"
 #include "player/scene/live_lamps.h"
 #include "player/scene/surface.h"
 
@@ -14,27 +15,6 @@ namespace {
 constexpr int kKernelTaps = 48, kFaintTaps = 24, kCoarseTaps = 12;
 constexpr std::size_t kFewTriangles = 20000;  // that no device minds
 constexpr float kFewerPixels = 1;             // of a coarse frame, that fewer triangles are off by
-
-const EmissionTexture* find_emission_texture(const Pack& pack, std::uint32_t material) {
-  const auto found = std::ranges::lower_bound(pack.emission_textures, material, {}, &EmissionTexture::material);
-  return found != pack.emission_textures.end() && found->material == material ? &*found : nullptr;
-}
-
-// Where the images of ranges are seen.
-void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::function<Bounds(const Bounds&)>& placed,
-              std::vector<ImageUse>& uses) {
-  const auto add = [&](ImageKind kind, std::int32_t index, const DrawRange& range) {
-    if (index >= 0) uses.push_back({{kind, static_cast<std::uint32_t>(index)}, placed(range.bounds), range.group});
-  };
-  for (const DrawRange& range : ranges) {
-    const Material& m = pack.materials[range.material];
-    add(ImageKind::kColor, m.base_color_texture, range);
-    add(ImageKind::kNormal, m.normal_texture, range);
-    if (const EmissionTexture* e = find_emission_texture(pack, range.material))
-      add(ImageKind::kColor, static_cast<std::int32_t>(e->texture), range);
-    add(ImageKind::kLight, range.lightmap_page, range);
-  }
-}
 
 // What the pack knows of a reflector's image.
 SeenMask seen_in(const Pack& pack, std::uint32_t reflector) {
@@ -337,7 +317,13 @@ void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, con
 }
 
 const EmissionTexture* GpuScene::emission_texture(std::uint32_t material) const {
-  return find_emission_texture(pack_, material);
+  return of_material(pack_.emission_textures, material);
+}
+
+const Metalness* GpuScene::metalness(std::uint32_t material) const {
+  const Material& m = pack_.materials[material];
+  const bool shown = m.fresnel_map >= 0 && m.alpha_mode != AlphaMode::kBlend && m.transmission <= 0;
+  return shown ? of_material(pack_.metalness, material) : nullptr;
 }
 
 Vec3 GpuScene::brightest_emission(std::uint32_t material) const {

@@ -156,6 +156,8 @@ class GpuScene {
   float unlit_white() const;
   // The picture that a material shines with; nothing where that is even.
   const EmissionTexture* emission_texture(std::uint32_t material) const;
+  // Of opaque materials whose F0 differs from place to place, how; else null.
+  const Metalness* metalness(std::uint32_t material) const;
   // White where index is -1.
   const gpu::Texture2d& albedo(std::int32_t index) const;
   // Of Pack::normal_textures; one that tilts nothing where index is -1.

@@ -89,6 +89,31 @@ inline void set_cutout(const gpu::Program& program, const GpuScene& scene, const
   scene.albedo(m.base_color_texture).bind(kBaseUnit);
 }
 
+// What shaders/lib/metalness.glsl asks for, and its texture to that unit. Returns whether F0 differs from place to
+// place.
+inline bool set_metalness(const gpu::Program& program, const GpuScene& scene, std::uint32_t material, int unit) {
+  const Material& m = scene.pack().materials[material];
+  const Metalness* metal = scene.metalness(material);
+  program.set("u_metal_varies", metal != nullptr ? 1 : 0);
+  if (metal == nullptr) return false;
+  program.set("u_metal", metal->texture >= 0 ? 1.0f : m.metallic);
+  program.set("u_dielectric", metal->dielectric);
+  program.set("u_f0", m.f0);
+  scene.albedo(metal->texture).bind(unit);
+  return true;
+}
+
+// What shaders/passes/place_reflectance.glsl asks for: two textures, to that unit and the next.
+inline void set_place_reflectance(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
+                                  int unit) {
+  const Material& m = scene.pack().materials[material];
+  program.set("u_base_texture", unit);
+  program.set("u_metal_texture", unit + 1);
+  if (!set_metalness(program, scene, material, unit + 1)) return;
+  program.set("u_base_color", Vec4(glm::clamp(m.base_color, Vec3(0), Vec3(1)), m.alpha));
+  scene.albedo(m.base_color_texture).bind(unit);
+}
+
 // Albedo, reflectance, emission and its picture, and normal map. normal_mapped: the mesh has coordinates for normal
 // maps.
 inline void set_surface(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
@@ -98,12 +123,13 @@ inline void set_surface(const gpu::Program& program, const GpuScene& scene, std:
   program.set("u_base_color", Vec4(base, m.alpha));
   program.set("u_alpha_cutoff", cutoff_of(m));
   program.set("u_covers", m.alpha_mode == AlphaMode::kBlend ? 1 : 0);
-  program.set("u_diffuse_share", (1 - m.metallic) * (1 - m.transmission));
   program.set("u_transmission", m.transmission);
   const EmissionTexture* picture = scene.emission_texture(material);
   program.set("u_emission", scene.brightest_emission(material));
   program.set("u_emission_texture", kGlowUnit);
   scene.albedo(picture != nullptr ? static_cast<std::int32_t>(picture->texture) : -1).bind(kGlowUnit);
+  const bool varies = set_metalness(program, scene, material, kGlowUnit);  // a texture has both
+  program.set("u_diffuse_share", (varies ? 1 : 1 - m.metallic) * (1 - m.transmission));
   program.set("u_unlit", m.unlit ? 1 : 0);
   program.set("u_reflectance_row", m.fresnel_map);
   if (m.fresnel_map >= 0) {

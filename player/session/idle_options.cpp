@@ -16,7 +16,7 @@ struct Rule {
 };
 
 bool has_maps(const Pack& pack) {
-  return !pack.radiance_maps.empty();
+  return !pack.map_meshes.empty();
 }
 
 bool draws_maps(const Pack& pack, const PlayArguments& a) {

@@ -26,8 +26,9 @@ OptionValue budget(float& ms) {
 std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
   return {
       {"--reflections", group,
-       "What reflectors show: as the bake chose, which is their radiance maps where they have some, the mirrored scene "
-       "drawn again, or nothing",
+       "What reflectors show: as the bake chose, which is their radiance maps where they have some and no lamp has "
+       "moved, "
+       "the mirrored scene drawn again, or nothing",
        choice(out.frame.reflections, kReflections), Use::kRare, "reflections"},
       {"--orders", group,
        "Reflectors on the way of a reflection: 1 shows a mirror in a mirror as its diffuse light only. Without it: 2, "
@@ -40,7 +41,7 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
        "processor, 8 on a graphics card; an eighth while something moves",
        budget(out.frame.image_budget_ms), Use::kRare, "frame_budget"},
       {"--maps", group,
-       "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 shows none",
+       "Radiance maps drawn for each reflector element in view before others fill their gaps; 0 shows none",
        number(out.frame.maps_per_element, 0, 64), Use::kRare, "maps"},
       {"--blur", group, "K's width in the image: by the distance of what is reflected, or as sharp as a mirror",
        choice(out.frame.blur, kBlurs), Use::kRare, "blur"},

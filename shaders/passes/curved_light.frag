@@ -2,6 +2,7 @@
 // between take a neighbour's. A program of its own for it: software rasterisers run every branch, and a whole block of pixels
 // for each triangle that touches it.
 #include "passes/surface.glsl"
+#include "passes/place_reflectance.glsl"
 #include "passes/curved_lobe.glsl"
 #include "lib/mirrored.glsl"
 
@@ -39,5 +40,5 @@ void main() {
   vec3 light = curved_light(v_position, normal, mirror, cos_theta, spread_of(mirror));
 #endif
   light *= u_light_scale;
-  o_light = vec4(u_modulate ? light * reflectance_of(tilted) : light, 1.0);
+  o_light = vec4(u_modulate ? light * reflectance_here(reflectance_of(tilted)) : light, 1.0);
 }

@@ -12,10 +12,11 @@ uniform bool u_unlit;
 #define NO_DISTANCE
 #endif
 #include "lib/distance_alpha.glsl"
-uniform float u_diffuse_share;  // (1 - metallic) (1 - transmission)
+uniform float u_diffuse_share;  // (1 - metallic) (1 - transmission); 1 - transmission where metalness varies
 uniform vec3 u_emission;        // cd/m2, of white texels; of an unlit surface what shows its colour
 #ifndef PLAIN
-uniform sampler2D u_emission_texture;
+#include "lib/metalness.glsl"
+uniform sampler2D u_emission_texture;  // a: metalness
 #endif
 uniform vec3 u_weights;  // of the diffuse part, the undirected reflection, the emission: 0 or 1
 
@@ -36,12 +37,21 @@ void main() {
   }
   vec3 reflectance = reflectance_of(normal);
   vec3 irradiance = irradiance_here(normal);
-  vec3 light = u_weights.x * diffuse_light(base.rgb * u_diffuse_share, reflectance, irradiance);
+  float diffuse_share = u_diffuse_share;
+#ifndef PLAIN
+  vec4 picture = texture_along(u_emission_texture, v_uv);
+  if (u_metal_varies) {
+    float metal = u_metal * picture.a;
+    reflectance = reflectance_in_place(reflectance, base.rgb, metal);
+    diffuse_share *= 1.0 - metal;
+  }
+#endif
+  vec3 light = u_weights.x * diffuse_light(base.rgb * diffuse_share, reflectance, irradiance);
   light += u_weights.y * ambient_reflection(reflectance, irradiance);
 #ifdef PLAIN
   light += u_weights.z * u_emission;
 #else
-  light += u_weights.z * u_emission * texture_along(u_emission_texture, v_uv).rgb;
+  light += u_weights.z * u_emission * picture.rgb;
 #endif
   o_light = vec4(light, alpha_of_light(1.0));
 }

@@ -1,6 +1,7 @@
 // R of a reflector at a pixel, and what it takes to know it.
 #include "lib/reflectance.glsl"
 #include "lib/shading.glsl"
+#include "passes/place_reflectance.glsl"
 
 uniform vec4 u_eye;
 uniform vec3 u_normal;           // of the reflector, unit, pack space
@@ -16,5 +17,5 @@ float reflector_cosine() { return view_cosine(u_normal, u_normal, v_position, u_
 vec3 reflector_reflectance(float cos_theta) {
   if (!u_modulate) return vec3(1.0);
   if (u_reflectance_row < 0) return vec3(0.0);
-  return reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta);
+  return reflectance_here(reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta));
 }

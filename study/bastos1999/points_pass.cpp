@@ -78,10 +78,10 @@ void PointsPass::draw(const FrameContext& context, const PointImage& image) {
     const std::array<Vec3, 4> corners{Vec3(lower, 0), Vec3(upper.x, lower.y, 0), Vec3(upper, 0),
                                       Vec3(lower.x, upper.y, 0)};
     if (project_polygon(image_from_reflector, corners).empty) continue;
-    const auto chosen = weigh_maps(element, image.maps, reflected.mirrored_eye, options.maps_per_element);
+    const auto chosen = maps_by_angle(element, image.maps, reflected.mirrored_eye);
     const std::size_t count = std::min(chosen.size(), static_cast<std::size_t>(options.maps_per_element));
     for (std::size_t i = 0; i < count; ++i) {
-      const RadianceMap& map = image.maps[element.maps[chosen[i].map]];
+      const RadianceMap& map = image.maps[element.maps[chosen[i]]];
       const auto [at, is_new] = points_.try_emplace(&map);
       if (is_new) at->second = {upload_points(map), divide_points(map)};
       draw_map(map, at->second, splats, stats);

@@ -176,7 +176,7 @@ void MultiPass::add_light(const FrameContext& context, const LitBatches& lit, co
   for (const DrawBatch& batch : lit.shown) {
     const Material& m = scene.pack().materials[batch.material];
     if (m.unlit || batch.lightmap_page < 0) continue;
-    const bool plain = m.normal_texture < 0 && cutoff_of(m) < 0;
+    const bool plain = m.normal_texture < 0 && cutoff_of(m) < 0 && scene.metalness(batch.material) == nullptr;
     const gpu::Program& program = plain ? plain_light_ : light_;
     program.use();
     state.cull = cull_of(m);

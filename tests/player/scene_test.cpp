@@ -118,40 +118,8 @@ TEST(SelectMaps, ByAngle) {
   ASSERT_EQ(elements.size(), 1u);
   const Vec4 eye(0.1f, 0, -1, 1);
   using Indices = std::vector<std::uint32_t>;
-  const auto best = [&](const Vec4& from, int count) {
-    Indices out;
-    for (const WeighedMap& m : weigh_maps(elements[0], maps, from, count)) out.push_back(m.map);
-    return out;
-  };
-  EXPECT_EQ(best(eye, 2), (Indices{0, 3, 1, 2}));
-  EXPECT_EQ(best(Vec4(-1, 0, -1, 0), 1)[0], 2u);
-}
-
-// Along a path of the eye the weights change without a jump, sum to 1, and a map that leaves the chosen ones has none
-// left.
-TEST(SelectMaps, WeightsAreContinuous) {
-  const auto maps = maps_from({{-1, 0, -1}, {-0.5f, 0, -1}, {0, 0, -1}, {0.5f, 0, -1}, {1, 0, -1}});
-  Reflector reflector;
-  reflector.map_count = 5;
-  const auto elements = group_by_element(reflector, maps);
-  const auto weights_at = [&](float x) {
-    std::vector<float> weights(5);
-    for (const WeighedMap& m : weigh_maps(elements[0], maps, {x, 0.1f, -1, 1}, 2)) weights[m.map] = m.weight;
-    return weights;
-  };
-  std::vector<float> last = weights_at(-1);
-  EXPECT_GT(last[0], 0.8f);
-  constexpr int kSteps = 20000;
-  for (int i = 1; i <= kSteps; ++i) {
-    const auto now = weights_at(-1 + 2.0f * static_cast<float>(i) / kSteps);
-    float sum = 0;
-    for (int m = 0; m < 5; ++m) {
-      sum += now[m];
-      EXPECT_LT(std::fabs(now[m] - last[m]), 0.01f) << m << " at " << i;
-    }
-    EXPECT_NEAR(sum, 1, 1e-5f);
-    last = now;
-  }
+  EXPECT_EQ(maps_by_angle(elements[0], maps, eye), (Indices{0, 3, 1, 2}));
+  EXPECT_EQ(maps_by_angle(elements[0], maps, Vec4(-1, 0, -1, 0))[0], 2u);
 }
 
 TEST(SelectMaps, MapsKnowTheirElements) {

@@ -313,6 +313,7 @@ void add_tiny_sharp_light(Pack& pack) {
 Pack tiny_mapped_pack() {
   Pack pack = tiny_pack();
   pack.emission_textures = {{1, 0, Vec3(0.5f, 0.25f, 1)}};
+  pack.metalness = {{0, -1, Vec3(0.04f)}, {1, 0, Vec3(0.02f, 0.03f, 0.04f)}};
   pack.solids = {{1, Vec3(0.9f, 0.95f, 1), Vec3(0.5f, 0, 12)}};
   LightmapPage& page = pack.lightmaps[0];
   for (std::size_t i = 0; i < page.irradiance.size(); ++i) {

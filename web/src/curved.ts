@@ -98,7 +98,7 @@ export class CurvedReflections {
     this.setLobe(program, scene, target, curved, options);
     this.setNormals(program, scene, target, curved);
     program.set('u_modulate', true);
-    scene.setReflectance(program, curved.material);
+    scene.setPlaceReflectance(program, curved.material);
     scene.bindGeometry();
     scene.draw(curved);
   }

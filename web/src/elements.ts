@@ -2,7 +2,7 @@
 import { halfToFloat } from './bytes';
 import type { ByteReader } from './bytes';
 import type {
-  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, Day, CurvedReflector, Surround, EmissionTexture, Mover, Pose } from './types';
+  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, Day, CurvedReflector, Surround, EmissionTexture, Metalness, Mover, Pose } from './types';
 import type { Vec3 } from './vec';
 
 export const mostGroups = 64;
@@ -52,15 +52,17 @@ export function readMesh(r: ByteReader): Mesh {
   return mesh;
 }
 
+export const readMetalness = (r: ByteReader): Metalness => ({ material: r.u32(), texture: r.i32(), dielectric: r.floats(3) });
 export const readEmissionTexture = (r: ByteReader): EmissionTexture => ({ material: r.u32(), texture: r.u32(), mean: r.floats(3) });
 export function readMaterial(r: ByteReader): Material {
   const name = r.text(), baseColor = r.floats(3), alpha = r.f32(), texture = r.i32();
   const alphaMode = r.choice(2, 'alpha mode'), doubleSided = r.choice(1, 'flag') > 0, unlit = r.choice(1, 'flag') > 0;
   r.choice(0, 'reserved byte');
   const cutoff = r.f32(), metallic = r.f32();
-  r.floats(5);
+  r.floats(2);
+  const f0 = r.floats(3);
   return {
-    name, baseColor, alpha, texture, alphaMode, doubleSided, unlit, cutoff, metallic, transmission: r.f32(), emission: r.floats(3),
+    name, baseColor, alpha, texture, alphaMode, doubleSided, unlit, cutoff, metallic, f0, transmission: r.f32(), emission: r.floats(3),
     kernel: r.i32(), fresnel: r.i32(), normalTexture: r.i32(), normalScale: r.f32(),
   };
 }

@@ -160,7 +160,7 @@ export class Renderer {
     for (const range of shown) {
       const m = scene.data.materials[range.material]!, partly = isPartlyOpaque(m);
       const twice = reflective.has(range.material) || (partly && !distance), stencilRead = partly ? seeThroughBit : reflectorBits;
-      const program = this.programFor(range, scene, m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit && !scene.picture(range.material) ? plain : this.opaque);
+      const program = this.programFor(range, scene, m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit && !scene.picture(range.material) && !scene.metalness(range.material) ? plain : this.opaque);
       program.use();
       scene.setSurface(program, range);
       program.set('u_weights', [1, 1, 1]);
@@ -182,7 +182,7 @@ export class Renderer {
     const state = { depthTest: true, depthWrite: true, mirrored: view.mirrored };
     this.drawRanges(scene, view, shown, this.reflected, reflective, state, true);
     for (const range of dark) {
-      const m = scene.data.materials[range.material]!, program = this.programFor(range, scene, m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit ? this.reflected : this.opaque);
+      const m = scene.data.materials[range.material]!, program = this.programFor(range, scene, m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit && !scene.metalness(range.material) ? this.reflected : this.opaque);
       program.use();
       scene.setSurface(program, range);
       program.set('u_weights', [1, 1, 0]);

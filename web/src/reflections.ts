@@ -266,7 +266,7 @@ export class Reflections {
     program.set('u_clip_from_pack', target.view.clipFromPack);
     program.set('u_eye', target.view.eye);
     program.set('u_normal', [m[8]!, m[9]!, m[10]!]);
-    scene.setReflectance(program, r.material);
+    scene.setPlaceReflectance(program, r.material);
     program.set('u_modulate', true);
   }
 

@@ -13,7 +13,7 @@ import { lobeRows, lobeTexels, makeTaps } from './kernel';
 import type { ReflectorEmitters } from './emitters';
 import type { GpuSharp } from './sharp_light';
 import type { GpuSurround } from './surround';
-import type { Emitter, EmissionTexture, Material, Page, PageGroups, Sections, SharpLight, Surround, Texture } from './sections';
+import type { Emitter, EmissionTexture, Material, Metalness, Page, PageGroups, Sections, SharpLight, Surround, Texture } from './sections';
 import type { Bounds, Mat4, Vec3 } from './vec';
 
 export interface Range { first: number; count: number; material: number; page: number; bounds: Bounds; }
@@ -347,6 +347,33 @@ export class GpuScene {
   /** That a material shines with, if any. */
   picture(material: number): EmissionTexture | undefined { return this.data.emissionTextures.find((e) => e.material === material); }
 
+  /** Of opaque materials whose F0 differs from place to place, how. */
+  metalness(material: number): Metalness | undefined {
+    const m = this.data.materials[material]!;
+    return m.fresnel < 0 || m.alphaMode === 2 || m.transmission > 0 ? undefined : this.data.metalness.find((one) => one.material === material);
+  }
+
+  /** What shaders/lib/metalness.glsl asks for; returns whether F0 differs. */
+  setMetalness(program: Program, material: number): boolean {
+    const metal = this.metalness(material), m = this.data.materials[material]!;
+    program.set('u_metal_varies', !!metal);
+    if (!metal) return false;
+    program.set('u_metal', metal.texture >= 0 ? 1 : m.metallic);
+    program.set('u_dielectric', metal.dielectric);
+    program.set('u_f0', m.f0);
+    return true;
+  }
+
+  /** R of a reflector, and what shaders/passes/place_reflectance.glsl asks for. */
+  setPlaceReflectance(program: Program, material: number): void {
+    const m = this.data.materials[material]!;
+    this.setReflectance(program, material);
+    this.setMetalness(program, material);
+    program.set('u_base_color', baseOf(m));
+    this.bindBase(m.texture);
+    bind(this.device.gl, 'u_metal_texture', this.textures[this.metalness(material)?.texture ?? -1] ?? this.white);
+  }
+
   setReflectance(program: Program, material: number): void {
     const row = this.data.materials[material]!.fresnel;
     program.set('u_reflectance_row', row);
@@ -356,14 +383,15 @@ export class GpuScene {
   /** Albedo, reflectance, emission, normal map and light of a range. */
   setSurface(program: Program, range: Range, hasNormalUvs = !!this.data.mesh!.normalUvs): void {
     const { gl } = this.device, m = this.data.materials[range.material]!, light = this.pages[range.page];
-    program.set('u_base_color', [...m.baseColor.map((c) => Math.min(Math.max(c, 0), 1)), m.alpha]);
+    program.set('u_base_color', baseOf(m));
     program.set('u_alpha_cutoff', cutoffOf(m));
     program.set('u_covers', m.alphaMode === 2);
-    program.set('u_diffuse_share', (1 - m.metallic) * (1 - m.transmission));
     program.set('u_transmission', m.transmission);
     const picture = this.picture(range.material), glow = picture && this.textures[picture.texture];
     program.set('u_emission', this.emission[range.material]!.map((e, c) => e * this.unit * (glow ? inverse(picture.mean[c]!) : 1)));
-    bind(gl, 'u_emission_texture', glow ?? this.white);
+    bind(gl, 'u_emission_texture', this.textures[this.metalness(range.material)?.texture ?? -1] ?? glow ?? this.white);  // a texture has both
+    const varies = this.setMetalness(program, range.material);
+    program.set('u_diffuse_share', (varies ? 1 : 1 - m.metallic) * (1 - m.transmission));
     program.set('u_unlit', m.unlit);
     this.setReflectance(program, range.material);
     this.bindBase(m.texture);
@@ -388,6 +416,7 @@ export class GpuScene {
   }
 }
 
+const baseOf = (m: Material): number[] => [...m.baseColor.map((c) => Math.min(Math.max(c, 0), 1)), m.alpha];
 const inverse = (x: number): number => (x > 0 ? 1 / x : 0);
 
 /** Blended, and whole in places, where it hides as opaque surfaces do: what rounds to 255 of 8 bits. */

@@ -2,7 +2,7 @@
 import { decompress } from 'fzstd';
 import { ByteReader, PieceError } from './bytes';
 import {
-  readMesh, readMaterial, readEmissionTexture, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readDay, readCurved, readSurround, list, mostGroups,
+  readMesh, readMaterial, readEmissionTexture, readMetalness, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readDay, readCurved, readSurround, list, mostGroups,
 } from './elements';
 import { readField, readMover } from './mover_elements';
 import { readSharp } from './sharp_elements';
@@ -18,6 +18,7 @@ function readSection(kind: string, count: number, r: ByteReader, out: Sections):
     case 'MESH': out.mesh = readMesh(r); break;
     case 'MATL': out.materials = list(r, count, readMaterial); break;
     case 'ETEX': out.emissionTextures = list(r, count, readEmissionTexture); break;
+    case 'METL': out.metalness = list(r, count, readMetalness); break;
     case 'TEXR': out.textures.push(...list(r, count, readTexture)); break;
     case 'NTEX': out.normals.push(...list(r, count, readTexture)); break;
     case 'LMAP': out.pages.push(...list(r, count, readPage)); break;
@@ -48,7 +49,7 @@ export function readPiece(bytes: Uint8Array, name: string): Sections {
   const fail = (text: string): never => { throw new PieceError(`${name}: ${text}`); };
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const out: Sections = {
-    sky: [0, 0, 0], materials: [], emissionTextures: [], textures: [], normals: [], pages: [], reflectors: [], emitters: [], kernels: [],
+    sky: [0, 0, 0], materials: [], emissionTextures: [], metalness: [], textures: [], normals: [], pages: [], reflectors: [], emitters: [], kernels: [],
     fresnels: [], cameras: [], paths: [], grids: [], groups: [], pageGroups: [], curved: [], surrounds: [], movers: [],
   };
   if (bytes.length < 64 || magic.some((m, i) => bytes[i] !== m)) fail('is no piece of a pack');
@@ -98,6 +99,10 @@ export function checkScene(scene: Sections, textures: number, normals: number, s
   for (const e of scene.emissionTextures) {
     within(e.material, scene.materials.length, 'material', 0);
     within(e.texture, textures, 'texture', 0);
+  }
+  for (const m of scene.metalness) {
+    within(m.material, scene.materials.length, 'material', 0);
+    within(m.texture, textures, 'texture');
   }
   for (const r of scene.reflectors) {
     within(r.material, scene.materials.length, 'material', 0);

@@ -7,6 +7,7 @@ import lib_kernel from '../../shaders/lib/kernel.glsl';
 import lib_lightmap_uv from '../../shaders/lib/lightmap_uv.glsl';
 import lib_lobe_light from '../../shaders/lib/lobe_light.glsl';
 import lib_lit_surface from '../../shaders/lib/lit_surface.glsl';
+import lib_metalness from '../../shaders/lib/metalness.glsl';
 import lib_mirrored from '../../shaders/lib/mirrored.glsl';
 import lib_normal_map from '../../shaders/lib/normal_map.glsl';
 import lib_octahedral from '../../shaders/lib/octahedral.glsl';
@@ -41,6 +42,7 @@ import pass_reflector_emitters_vert from '../../shaders/passes/reflector_emitter
 import pass_reflector_mask_frag from '../../shaders/passes/reflector_mask.frag';
 import pass_reflector_mask_vert from '../../shaders/passes/reflector_mask.vert';
 import pass_reflector_reflectance_glsl from '../../shaders/passes/reflector_reflectance.glsl';
+import pass_place_reflectance from '../../shaders/passes/place_reflectance.glsl';
 import pass_reflector_surface_glsl from '../../shaders/passes/reflector_surface.glsl';
 import pass_scene_frag from '../../shaders/passes/scene.frag';
 import pass_scene_vert from '../../shaders/passes/scene.vert';
@@ -66,6 +68,7 @@ const files: Record<string, string> = {
   'lib/lightmap_uv.glsl': lib_lightmap_uv,
   'lib/lobe_light.glsl': lib_lobe_light,
   'lib/lit_surface.glsl': lib_lit_surface,
+  'lib/metalness.glsl': lib_metalness,
   'lib/mirrored.glsl': lib_mirrored,
   'lib/normal_map.glsl': lib_normal_map,
   'lib/octahedral.glsl': lib_octahedral,
@@ -100,6 +103,7 @@ const files: Record<string, string> = {
   'passes/reflector_mask.frag': pass_reflector_mask_frag,
   'passes/reflector_mask.vert': pass_reflector_mask_vert,
   'passes/reflector_reflectance.glsl': pass_reflector_reflectance_glsl,
+  'passes/place_reflectance.glsl': pass_place_reflectance,
   'passes/reflector_surface.glsl': pass_reflector_surface_glsl,
   'passes/scene.frag': pass_scene_frag,
   'passes/scene.vert': pass_scene_vert,

@@ -10,11 +10,13 @@ export interface Mesh {
 }
 export interface Material {
   name: string; baseColor: number[]; alpha: number; texture: number; alphaMode: number; doubleSided: boolean; unlit: boolean;
-  cutoff: number; metallic: number; transmission: number; emission: number[]; kernel: number; fresnel: number;
+  cutoff: number; metallic: number; f0: number[]; transmission: number; emission: number[]; kernel: number; fresnel: number;
   normalTexture: number; normalScale: number;
 }
 /** The picture that a material shines with: its radiance is emission · texel / mean. */
 export interface EmissionTexture { material: number; texture: number; mean: number[]; }
+/** Where a material is metal: alpha of the texture, or of texture -1 all as much as its metallic. */
+export interface Metalness { material: number; texture: number; dielectric: number[]; }
 export interface Texture {
   width: number; height: number; wrapS: number; wrapT: number; nearest: boolean; texels: Uint8Array;
 }
@@ -86,7 +88,7 @@ export interface Sections {
   sharp?: SharpLight;
   movers: Mover[]; field?: LightField;
   curved: CurvedReflector[]; surrounds: Surround[];
-  groups: LightGroup[]; pageGroups: PageGroups[]; sky: number[]; mesh?: Mesh; materials: Material[]; emissionTextures: EmissionTexture[]; textures: Texture[]; normals: Texture[]; pages: Page[];
+  groups: LightGroup[]; pageGroups: PageGroups[]; sky: number[]; mesh?: Mesh; materials: Material[]; emissionTextures: EmissionTexture[]; metalness: Metalness[]; textures: Texture[]; normals: Texture[]; pages: Page[];
   reflectors: Reflector[]; emitters: Emitter[]; kernels: Kernel[]; fresnels: Fresnel[];
   cameras: Camera[]; paths: Path[]; grids: WalkGrid[];
 }

@@ -107,25 +107,27 @@ class NeighbourFinder {
     return false;
   }
 
-  // A file's own charts may be stretched: a texel's diagonal is then longer than its area tells.
+  // A file's own charts may be stretched or sheared: a texel's diagonals are then longer than its area tells.
   void find_reach(const std::vector<float>& side) {
-    struct Steps {
+    struct Diagonal {
       float length_m = 0, count = 0;
       float mean() const { return count > 0 ? length_m / count : 0; }
     };
-    std::vector<std::array<Steps, 2>> steps(side.size());  // along u and v of the page
+    std::vector<std::array<Diagonal, 2>> diagonals(side.size());
     for (std::uint32_t i = 0; i < texels_.count(); ++i)
-      for (const int axis : {0, 1}) {
-        const std::uint32_t next = texels_.at(texels_.page[i], static_cast<int>(texels_.x[i]) + 1 - axis,
-                                              static_cast<int>(texels_.y[i]) + axis);
+      for (const int up : {0, 1}) {
+        const std::uint32_t next = texels_.at(texels_.page[i], static_cast<int>(texels_.x[i]) + 1,
+                                              static_cast<int>(texels_.y[i]) + 2 * up - 1);
         if (next == kNoTexel || texels_.chart[next] != texels_.chart[i]) continue;
         if (texels_.visible[i] == 0 || texels_.visible[next] == 0) continue;
-        Steps& along = steps[texels_.chart[i]][axis];
-        along.length_m += std::sqrt(distance2(i, next)), ++along.count;
+        Diagonal& to = diagonals[texels_.chart[i]][up];
+        to.length_m += std::sqrt(distance2(i, next)), ++to.count;
       }
     reach_.resize(side.size());
-    for (std::size_t c = 0; c < side.size(); ++c)
-      reach_[c] = kReach * std::max(side[c], std::hypot(steps[c][0].mean(), steps[c][1].mean()) / std::sqrt(2.0f));
+    for (std::size_t c = 0; c < side.size(); ++c) {
+      const float longer = std::max(diagonals[c][0].mean(), diagonals[c][1].mean());
+      reach_[c] = kReach * std::max(side[c], longer / std::sqrt(2.0f));
+    }
   }
 
   TreeBox reach_of(std::uint32_t i) const {

@@ -58,5 +58,37 @@ TEST(Assemble, TheBaseColoursCoordinatesComeFirst) {
   EXPECT_EQ(assembled(screen(base)).emission_textures.size(), 1u);
 }
 
+// Metal in every second texel, in a texture of blue alone; with the picture, if there is one, in one texture.
+TEST(Assemble, MetalInPlacesIsToldByAlpha) {
+  for (const bool shines : {false, true}) {
+    Scene scene = screen();
+    SceneMaterial& m = scene.materials[0];
+    Image image{"metal", 2, 1, {255, 90, 0, 255, 255, 90, 200, 255}};
+    scene.images.push_back(image);
+    m.metallic_roughness_texture = m.emission_texture;
+    m.metallic_roughness_texture.image = 1;
+    m.metallic = 0.5f, m.base_color = {0.9f, 0.7f, 0.3f};
+    if (!shines) m.emission_texture = {}, m.emission = Vec3(0);
+    const Pack pack = assembled(scene);
+    ASSERT_EQ(pack.metalness.size(), 1u);
+    const Metalness& metal = pack.metalness[0];
+    ASSERT_EQ(metal.texture, 0);
+    ASSERT_EQ(pack.textures.size(), 1u);
+    EXPECT_NEAR(metal.dielectric.g, 0.04f, 1e-5f);
+    const std::vector<std::uint8_t>& texels = pack.textures[0].texels;
+    EXPECT_EQ(texels[3], 0);
+    EXPECT_EQ(texels[7], 100);
+    EXPECT_EQ(texels[0], shines ? 0 : 255);
+    EXPECT_EQ(pack.emission_textures.size(), shines ? 1u : 0u);
+    scene.images[1].texels = {255, 90, 200, 255, 255, 90, 200, 255};
+    EXPECT_TRUE(assembled(scene).metalness.empty()) << "the same everywhere";
+    m.base_color_texture = m.metallic_roughness_texture;
+    ASSERT_EQ(assembled(scene).metalness.size(), 1u) << "its colour is F0";
+    EXPECT_EQ(assembled(scene).metalness[0].texture, -1);
+    m.alpha_mode = AlphaMode::kBlend;
+    EXPECT_TRUE(assembled(scene).metalness.empty()) << "glass shows its mean";
+  }
+}
+
 }  // namespace
 }  // namespace oriel::test

@@ -139,7 +139,7 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["day"]["clock"], "UTC+02:00");
   EXPECT_EQ(json["day"]["hours"][0]["group"], nullptr);
   EXPECT_EQ(json["day"]["hours"][1]["group"], 1);
-  EXPECT_EQ(json["sections"].size(), 37u);
+  EXPECT_EQ(json["sections"].size(), 38u);
   EXPECT_EQ(json["sharp_light"]["lamps"], 2);
   EXPECT_EQ(json["sharp_light"]["texels"], 6);
   EXPECT_EQ(json["frosted_panes"][0]["name"], "screen");

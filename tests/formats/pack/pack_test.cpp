@@ -52,6 +52,11 @@ TEST(Pack, SolidGlassComesBack) {
 
 TEST(Pack, EmissionTexturesComeBack) {
   const Pack out = round_trip(tiny_mapped_pack());
+  ASSERT_EQ(out.metalness.size(), 2u);
+  EXPECT_EQ(out.metalness[0].texture, -1);
+  EXPECT_EQ(out.metalness[1].material, 1u);
+  EXPECT_EQ(out.metalness[1].texture, 0);
+  EXPECT_EQ(out.metalness[1].dielectric, Vec3(0.02f, 0.03f, 0.04f));
   ASSERT_EQ(out.emission_textures.size(), 1u);
   EXPECT_EQ(out.emission_textures[0].material, 1u);
   EXPECT_EQ(out.emission_textures[0].texture, 0u);

@@ -79,7 +79,7 @@ TEST(IdleOptions, TheReasonIsTold) {
               ::testing::ElementsAre("--maps has no effect: the pack has no radiance maps"));
   arguments.frame.reflections = Reflections::kGeometry, arguments.given = {"--reflections"};
   Pack mirrors = testing::tiny_mapped_pack();
-  mirrors.radiance_maps.clear();
+  mirrors.map_meshes.clear();
   EXPECT_THAT(idle_options(mirrors, arguments),
               ::testing::ElementsAre(
                   "--reflections has no effect: the pack has no radiance maps: its mirrors are drawn as geometry"));
