@@ -57,6 +57,22 @@ LightmapPage without_errors(const LightmapPage& page) {
   return out;
 }
 
+// At most a megabyte and a half.
+SkyMap small_sky(SkyMap sky) {
+  constexpr std::uint32_t kMost = 1024;  // texels around: a third of a degree
+  while (sky.width > kMost && sky.width % 2 == 0 && sky.height % 2 == 0) {
+    SkyMap half{sky.width / 2, sky.height / 2, {}};
+    for (std::size_t y = 0; y < half.height; ++y)
+      for (std::size_t x = 0; x < half.width; ++x) {
+        const Vec3* const upper = &sky.texels[2 * y * sky.width + 2 * x];
+        const Vec3* const lower = upper + sky.width;
+        half.texels.push_back(0.25f * (upper[0] + upper[1] + lower[0] + lower[1]));
+      }
+    sky = std::move(half);
+  }
+  return sky;
+}
+
 std::vector<Reflector> without_maps(std::vector<Reflector> reflectors) {
   for (Reflector& r : reflectors) r.elements_x = r.elements_y = r.first_map = r.map_count = 0;
   return reflectors;
@@ -142,6 +158,8 @@ Status make_pieces(const Pack& pack, const std::function<Status(WebPiece)>& take
   ORIEL_TRY_VOID(each("light", kLightmapSection, pages, take));
   ORIEL_TRY_VOID(each("texture", kTextureSection, pack.textures, take));
   ORIEL_TRY_VOID(each("normal", kNormalTextureSection, pack.normal_textures, take));
+  if (pack.sky_map.width > 0)
+    ORIEL_TRY_VOID(each("sky", kSkyMapSection, std::vector<SkyMap>{small_sky(pack.sky_map)}, take));
   if (!pack.movers.empty() && pack.light_field.bands > 0) {
     ORIEL_TRY_VOID(each("field", kLightFieldSection, std::vector<LightField>{pack.light_field}, take));
     ORIEL_TRY_VOID(each("mover", kMoverSection, pack.movers, take));

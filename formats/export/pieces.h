@@ -11,7 +11,7 @@
 namespace oriel {
 
 struct WebPiece {
-  std::string kind;       // "scene", "sharp", "light", "texture", "normal", "field", "mover", "surround" or "lamps"
+  std::string kind;  // "scene", "sharp", "light", "texture", "normal", "sky", "field", "mover", "surround" or "lamps"
   std::size_t index = 0;  // of the pack's pages or textures; 0 for the scene
   Bytes bytes;
 };

@@ -2,7 +2,7 @@
 import { halfToFloat } from './bytes';
 import type { ByteReader } from './bytes';
 import type {
-  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, Day, CurvedReflector, Surround, EmissionTexture, Metalness, Mover, Pose } from './types';
+  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, Day, CurvedReflector, Surround, EmissionTexture, Metalness, SkyMap, Mover, Pose } from './types';
 import type { Vec3 } from './vec';
 
 export const mostGroups = 64;
@@ -269,6 +269,11 @@ export function readSurround(r: ByteReader): Surround {
   if (!(nearest >= 0 && nearest <= 1e18)) r.fail(`found inverse distance ${nearest}`);
   const light = r.planesU32(n), codes = r.planesU16(n);
   return { centre, size, scale, light, inverseDistance: Float32Array.from(codes, (c) => (c / 65535) * nearest), valid: r.planes(n, 1) };
+}
+
+export function readSky(r: ByteReader): SkyMap {
+  const width = r.size(kMaxSide, 'width'), height = r.size(kMaxSide, 'height'), scale = 2 ** exponent(r);
+  return { width, height, scale, light: r.planesU32(width * height) };
 }
 
 export function list<T>(r: ByteReader, count: number, one: (r: ByteReader) => T): T[] {

@@ -41,6 +41,7 @@ export class Renderer {
   private readonly transparent: Program;
   private readonly sharp: Map<Program, Program>[];  // the same where lamps' light is computed by pixel; second: some are suns
   private readonly luminance: Program;
+  private readonly sky: Program;
   private readonly average: Program;
   private readonly reflections: Reflections;
   private readonly none: WebGLVertexArrayObject;
@@ -49,7 +50,7 @@ export class Renderer {
     const gl = device.gl, make = (name: string, define = ''): Program => Program.make(gl, name, define);
     this.depth = make('depth'), this.plainDepth = make('depth', 'PLAIN');
     this.opaque = make('scene'), this.plain = make('scene', 'PLAIN'), this.reflected = make('scene', 'REFLECTED');
-    this.transparent = make('transparent'), this.luminance = make('screen_luminance'), this.average = make('screen_average');
+    this.transparent = make('transparent'), this.luminance = make('screen_luminance'), this.sky = make('screen_sky'), this.average = make('screen_average');
     this.sharp = ['SHARP', 'SHARP SUNS'].map((sharp) => new Map([
       [this.opaque, make('scene', sharp)], [this.plain, make('scene', `PLAIN ${sharp}`)], [this.reflected, make('scene', `REFLECTED ${sharp}`)],
       [this.transparent, make('transparent', sharp)],
@@ -64,7 +65,7 @@ export class Renderer {
   }
   /** And what the others need. */
   startRest(): void {
-    for (const p of [...this.reflections.programs, this.reflected, this.opaque, this.depth, this.transparent]) p.start();
+    for (const p of [...this.reflections.programs, this.reflected, this.opaque, this.depth, this.transparent, this.sky]) p.start();
   }
 
   drawScreen(): void {
@@ -106,6 +107,7 @@ export class Renderer {
     for (const m of marked) if (m.value > 0) this.reflections.draw(scene, target, m, options);
     const curved = this.reflections.curved.draw(scene, target, options);
     begin();
+    this.drawSky(scene, view, 1);
     this.drawOpaque(scene, view, shown, new Set([...marked.filter((m) => m.value > 0).map((m) => m.reflector.material), ...curved.materials]));
     scene.movers.drawLight(view, false);
     this.drawTransparent(scene, view);
@@ -119,6 +121,27 @@ export class Renderer {
     apply(gl, { depthWrite: true, stencilWrite: 0xff });
     gl.clearColor(color[0]!, color[1]!, color[2]!, color[3]!);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
+  }
+
+  /** The sky by direction where nothing is: the twin of ScenePass::draw_sky(). */
+  drawSky(scene: GpuScene, view: View, alpha: number): void {
+    if (!scene.skyMap) return;
+    const { gl } = this.device, c = view.clipFromView, m = view.viewFromPack;
+    // Of a view space direction the pack's, as a column.
+    const column = (x: number, y: number, z: number, w: number): number[] =>
+      [...[0, 1, 2].map((i) => m[4 * i]! * x + m[4 * i + 1]! * y + m[4 * i + 2]! * z), w];
+    apply(gl, { depthTest: true });
+    this.sky.use();
+    bind(gl, 'u_sky', scene.skyMap.texture);
+    this.sky.set('u_color', scene.sky.map((s) => s * scene.unit * scene.skyMap!.scale));
+    this.sky.set('u_direction_from_clip',
+      [...column(1 / c[0]!, 0, 0, 0), ...column(0, 1 / c[5]!, 0, 0), 0, 0, 0, 0, ...column(c[8]! / c[0]!, c[9]! / c[5]!, -1, 1)]);
+    this.sky.set('u_eye', view.eye);
+    this.sky.set('u_size', [view.width, view.height]);
+    this.sky.set('u_alpha', alpha);
+    gl.depthRange(1, 1);
+    this.drawScreen();
+    gl.depthRange(0, 1);
   }
 
   drawDepth(scene: GpuScene, view: View, shown: Range[]): void {

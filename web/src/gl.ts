@@ -7,7 +7,7 @@ const units: Record<string, number> = {
   u_surfaces: 8, u_image: 9, u_frame: 9, u_source: 9, u_blurred: 10, u_before: 10, u_taps: 11, u_emission_texture: 11, u_polygons: 12, u_visibility: 13,
   u_seen: 14, u_lobes: 15,
   u_codes: 6, u_table: 7, u_light: 9, u_inverse_distance: 10, u_places: 12, u_normals: 13, u_shaded: 15,
-  u_metal_texture: 1, u_sharp_at: 16, u_sharp_words: 17, u_sharp_triangles: 18, u_sharp_lamps: 19,
+  u_metal_texture: 1, u_sky: 1, u_sharp_at: 16, u_sharp_words: 17, u_sharp_triangles: 18, u_sharp_lamps: 19,
 };
 
 /** Compiled from when it is started or first used, and waited for when it is used: meanwhile others compile beside it. */

@@ -58,6 +58,7 @@ class Walkthrough {
     if (kind === 'texture' && sections.textures[0]) show.scene.setTexture(at, sections.textures[0], false);
     if (kind === 'normal' && sections.normals[0]) show.scene.setTexture(at, sections.normals[0], true);
     if (kind === 'surround' && sections.surrounds[0]) show.scene.setSurround(at, sections.surrounds[0]);
+    if (kind === 'sky' && sections.skyMap) show.scene.setSky(sections.skyMap);
     if (kind === 'field' && sections.field) show.scene.movers.setField(sections.field);
     if (kind === 'mover' && sections.movers[0]) show.scene.movers.add(at, sections.movers[0]);
     if (kind === 'lamps' && sections.pageGroups[0]) show.scene.setPageGroups(sections.pageGroups[0]);
@@ -158,7 +159,7 @@ function checkPiece(sections: Sections, piece: Piece, most: number): void {
   const held: Record<string, unknown[]> = {
     light: sections.pages, texture: sections.textures, normal: sections.normals, surround: sections.surrounds,
     lamps: sections.pageGroups, mover: sections.movers, field: sections.field ? [sections.field] : [],
-    sharp: sections.sharp ? [sections.sharp] : [],
+    sharp: sections.sharp ? [sections.sharp] : [], sky: sections.skyMap ? [sections.skyMap] : [],
   };
   const found = held[piece.kind]?.length ?? 0;
   if (found !== 1) throw new PieceError(`${piece.file}: found ${found} of kind '${piece.kind}', expected one`);
@@ -169,6 +170,7 @@ function checkPiece(sections: Sections, piece: Piece, most: number): void {
 function checkSizes(sections: Sections, file: string, most: number): void {
   const sizes = [...sections.textures, ...sections.normals, ...sections.pages].map((t) => [t.width, t.height]);
   for (const p of sections.pages) sizes.push([p.detailWidth, p.detailHeight]);
+  if (sections.skyMap) sizes.push([sections.skyMap.width, sections.skyMap.height]);
   for (const s of sections.surrounds) sizes.push([1.5 * s.size + 4, s.size + 64]);
   if (sections.sharp) sizes.push([sharpColumns, sharpRows(sections.sharp)]);
   for (const [w, h] of sizes)

@@ -151,6 +151,7 @@ export class Reflections {
     this.renderer.clear([...scene.sky.map((s) => s * scene.unit), closest]);
     gl.disable(gl.SCISSOR_TEST);
     const view = this.mirroredView(scene, r, outer, rect);
+    this.renderer.drawSky(scene, view, closest);
     const shown = scene.opaque.filter((range) => v.mayBeVisible(view.clipFromPack, range.bounds));
     const dark = r.dark.filter((range) => v.mayBeVisible(view.clipFromPack, range.bounds));
     const inside: Target = {

@@ -13,7 +13,7 @@ import { lobeRows, lobeTexels, makeTaps } from './kernel';
 import type { ReflectorEmitters } from './emitters';
 import type { GpuSharp } from './sharp_light';
 import type { GpuSurround } from './surround';
-import type { Emitter, EmissionTexture, Material, Metalness, Page, PageGroups, Sections, SharpLight, Surround, Texture } from './sections';
+import type { Emitter, EmissionTexture, Material, Metalness, Page, PageGroups, Sections, SharpLight, SkyMap, Surround, Texture } from './sections';
 import type { Bounds, Mat4, Vec3 } from './vec';
 
 export interface Range { first: number; count: number; material: number; page: number; bounds: Bounds; }
@@ -64,6 +64,7 @@ export class GpuScene {
   private emission: number[][];               // by material; of unlit ones what shows their colour, cd/m2
   readonly unlitWhite: number;
   sky: number[];
+  skyMap?: { texture: WebGLTexture; scale: number };  // by direction, of `sky`
   private readonly white: WebGLTexture;
   private readonly flat: WebGLTexture;
   private readonly zero: WebGLTexture;
@@ -286,6 +287,12 @@ export class GpuScene {
       }
     }
     return out;
+  }
+
+  setSky(map: SkyMap): void {
+    const { gl } = this.device, shape = { width: map.width, height: map.height, format: gl.RGB9_E5, min: gl.LINEAR, mag: gl.LINEAR, wrapS: gl.REPEAT };
+    this.skyMap = { texture: makeTexture(gl, shape, map.light), scale: map.scale };
+    this.bytes += map.light.byteLength;
   }
 
   setSurround(index: number, map: Surround): void {

@@ -2,7 +2,7 @@
 import { decompress } from 'fzstd';
 import { ByteReader, PieceError } from './bytes';
 import {
-  readMesh, readMaterial, readEmissionTexture, readMetalness, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readDay, readCurved, readSurround, list, mostGroups,
+  readMesh, readMaterial, readEmissionTexture, readMetalness, readSky, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readDay, readCurved, readSurround, list, mostGroups,
 } from './elements';
 import { readField, readMover } from './mover_elements';
 import { readSharp } from './sharp_elements';
@@ -36,6 +36,7 @@ function readSection(kind: string, count: number, r: ByteReader, out: Sections):
     case 'LGRP': out.groups = list(r, count, readGroup); break;
     case 'GLMP': out.pageGroups.push(...list(r, count, readPageGroups)); break;
     case 'DAYH': out.day = readDay(r); break;
+    case 'SKYM': out.skyMap = readSky(r); break;
     case 'WALK': out.grids = list(r, count, readGrid); break;
     default: r.fail('found a section that a piece does not have');
   }

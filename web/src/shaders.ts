@@ -52,6 +52,7 @@ import pass_screen_convolve_frag from '../../shaders/passes/screen_convolve.frag
 import pass_screen_curved_frag from '../../shaders/passes/screen_curved.frag';
 import pass_screen_fullscreen_vert from '../../shaders/passes/screen_fullscreen.vert';
 import pass_screen_luminance_frag from '../../shaders/passes/screen_luminance.frag';
+import pass_screen_sky_frag from '../../shaders/passes/screen_sky.frag';
 import pass_screen_pull_frag from '../../shaders/passes/screen_pull.frag';
 import pass_surface_glsl from '../../shaders/passes/surface.glsl';
 import pass_surface_vertex_glsl from '../../shaders/passes/surface_vertex.glsl';
@@ -113,6 +114,7 @@ const files: Record<string, string> = {
   'passes/screen_curved.frag': pass_screen_curved_frag,
   'passes/screen_fullscreen.vert': pass_screen_fullscreen_vert,
   'passes/screen_luminance.frag': pass_screen_luminance_frag,
+  'passes/screen_sky.frag': pass_screen_sky_frag,
   'passes/screen_pull.frag': pass_screen_pull_frag,
   'passes/surface.glsl': pass_surface_glsl,
   'passes/surface_vertex.glsl': pass_surface_vertex_glsl,

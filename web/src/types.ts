@@ -13,6 +13,8 @@ export interface Material {
   cutoff: number; metallic: number; f0: number[]; transmission: number; emission: number[]; kernel: number; fresnel: number;
   normalTexture: number; normalScale: number;
 }
+/** RGB9E5 over `scale`, by direction, times Sections.sky: formats/assets/sky_map.h. */
+export interface SkyMap { width: number; height: number; scale: number; light: Uint32Array; }
 /** The picture that a material shines with: its radiance is emission · texel / mean. */
 export interface EmissionTexture { material: number; texture: number; mean: number[]; }
 /** Where a material is metal: alpha of the texture, or of texture -1 all as much as its metallic. */
@@ -85,7 +87,7 @@ export interface Day { clock: string; shown: number; hours: { hour: number; grou
 
 export interface Sections {
   day?: Day;
-  sharp?: SharpLight;
+  sharp?: SharpLight; skyMap?: SkyMap;
   movers: Mover[]; field?: LightField;
   curved: CurvedReflector[]; surrounds: Surround[];
   groups: LightGroup[]; pageGroups: PageGroups[]; sky: number[]; mesh?: Mesh; materials: Material[]; emissionTextures: EmissionTexture[]; metalness: Metalness[]; textures: Texture[]; normals: Texture[]; pages: Page[];

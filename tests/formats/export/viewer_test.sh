@@ -35,9 +35,11 @@ if compare --light '*=off' --light 'window sky=on' --max-flip 0.04; then
   exit 1
 fi
 
-# What blends is drawn from far to near, from whichever side: in the mesh's order it differs by 0.14.
+# What blends is drawn from far to near, from whichever side: in the mesh's order it differs by 0.14. Behind it is the sky as it is
+# by direction, darker above.
 node "$test/panes.mjs" >"$work/panes.gltf"
-"$bin/oriel-bake" "$work/panes.gltf" -o "$work/panes.oriel" --texel 20cm --error 20% >/dev/null 2>&1
+"$bin/oriel-scenes" sky 12 -o "$work/sky.exr" >/dev/null
+"$bin/oriel-bake" "$work/panes.gltf" -o "$work/panes.oriel" --sky "$work/sky.exr" --texel 20cm --error 20% >/dev/null 2>&1
 "$bin/oriel-inspect" web "$work/panes.oriel" -o "$work/panes" >/dev/null
 for camera in front back; do
   node "$test/shot.mjs" "$work/panes" "$work/panes.png" "$camera" 640 360
