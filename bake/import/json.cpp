@@ -66,17 +66,18 @@ void JsonDocument::add_error(const std::string& path, std::string message) {
     first_error_ = Error{ErrorCode::kInvalid, std::move(message), path.empty() ? file_ : file_ + ": " + path};
 }
 
-void JsonDocument::add_repair(const std::string& path, const std::string& what) {
+void JsonDocument::add_repair(const std::string& path, const std::string& what, WarningCode code) {
   auto repair = std::ranges::find(repairs_, what, &Repair::what);
-  if (repair == repairs_.end()) repair = repairs_.insert(repair, {what, path});
+  if (repair == repairs_.end()) repair = repairs_.insert(repair, {what, path, code});
   ++repair->count;
 }
 
-std::vector<std::string> JsonDocument::repairs() const {
-  std::vector<std::string> lines;
+std::vector<Warning> JsonDocument::repairs() const {
+  std::vector<Warning> lines;
   for (const Repair& repair : repairs_)
-    lines.push_back(fmt::format("{}{}{}{}: {}", file_, repair.first_path.empty() ? "" : ": ", repair.first_path,
-                                repair.count > 1 ? fmt::format(" and {} more", repair.count - 1) : "", repair.what));
+    lines.emplace_back(fmt::format("{}{}{}{}: {}", file_, repair.first_path.empty() ? "" : ": ", repair.first_path,
+                                   repair.count > 1 ? fmt::format(" and {} more", repair.count - 1) : "", repair.what),
+                       repair.code);
   return lines;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bake/jobs/context.h"
 #include "formats/core/bytes.h"
 #include "formats/core/json.h"
 #include "formats/core/result.h"
@@ -32,12 +33,13 @@ class JsonDocument {
   Status status() const;
   void add_error(const std::string& path, std::string message);
   // What was wrong and is mended: `what` says the fault and the cure. Faults of one kind make one warning.
-  void add_repair(const std::string& path, const std::string& what);
-  std::vector<std::string> repairs() const;
+  void add_repair(const std::string& path, const std::string& what, WarningCode code = "file-damaged");
+  std::vector<Warning> repairs() const;
 
  private:
   struct Repair {
     std::string what, first_path;
+    WarningCode code;
     std::size_t count = 0;
   };
   std::vector<Repair> repairs_;
@@ -87,7 +89,9 @@ class JsonAt {
   // Records "found <this value>, expected <expected>".
   void expected(std::string_view what) const;
   void error(std::string message) const { document_->add_error(path_, std::move(message)); }
-  void repaired(const std::string& what) const { document_->add_repair(path_, what); }
+  void repaired(const std::string& what, WarningCode code = "file-damaged") const {
+    document_->add_repair(path_, what, code);
+  }
   JsonDocument& document() const { return *document_; }
 
  private:

@@ -61,7 +61,7 @@ Status set_object_key(std::string_view key, const std::string& value, ObjectKeys
   }
   const bool yes = value == "true" || value == "on" || value == "1" || value.empty();
   if (!yes && value != "false" && value != "off" && value != "0")
-    return fail(ErrorCode::kUsage, name, "found {}, expected true or false", value);
+    return fail(ErrorCode::kUsage, name, "found {}, expected true or false, on or off", value);
   (key == "mover"       ? keys.mover
    : key == "exclude"   ? keys.exclude
    : key == "two_sided" ? keys.two_sided

@@ -279,7 +279,7 @@ Result<Document> parse_document(JsonDocument& json) {
   ORIEL_TRY_VOID(json.status());
   parse_nodes(root, document);
   ORIEL_TRY_VOID(json.status());
-  for (std::string& repair : json.repairs()) document.warnings.push_back({std::move(repair), "file-damaged"});
+  for (Warning& repair : json.repairs()) document.warnings.push_back(std::move(repair));
   return document;
 }
 

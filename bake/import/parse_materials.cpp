@@ -76,7 +76,8 @@ class MaterialParser {
     parse_anisotropy(value, m);
     const ObjectKeys keys = parse_object_keys(value);
     if (keys.mover || keys.exclude || keys.texel_m || keys.light_group)
-      value["extras"].repaired("mover, exclude, texel, density and light_group are a node's; they are ignored");
+      value["extras"].repaired("mover, exclude, texel, density and light_group are a node's; they are ignored",
+                               "object-key");
     m.metal = keys.metal;
     m.reflections = keys.reflections.value_or(true);
     m.double_sided = keys.two_sided.value_or(value["doubleSided"].boolean(false));

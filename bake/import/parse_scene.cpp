@@ -316,8 +316,9 @@ void note_deformations(Document& document) {
 void set_key(const std::string& key, const JsonAt& value, ObjectKeys& keys) {
   if (key == "angular_diameter_deg") return;
   const auto text = value.scalar_text();
-  if (!text) return value.repaired("found no number, text, true or false; it is ignored");
-  if (const auto set = set_object_key(key, *text, keys); !set) value.repaired(set.error().message + "; it is ignored");
+  if (!text) return value.repaired("found no number, text, true or false; it is ignored", "object-key");
+  if (const auto set = set_object_key(key, *text, keys); !set)
+    value.repaired(set.error().message + "; it is ignored", "object-key");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ inline constexpr std::string_view kWarningCodes =
     "dropped-samples duplicate-triangles ended-early energy-ledger error-missed eyes-guessed facing-apart "
     "failed-checks file-damaged idle-option left-out light-groups light-lingers light-units material-value "
     "missing-texcoords missing-texture mover-light mover-still night no-image no-light no-reflections normals-behind "
-    "not-oriented plain-charts scene-chosen shared-edges sky-added sun-replaced thin-glass "
+    "not-oriented object-key plain-charts scene-chosen shared-edges sky-added sun-replaced thin-glass "
     "time-missed time-over too-small trade-incomplete unit-guessed unsupported uv1-faulty uv1-moved";
 constexpr bool is_warning_code(std::string_view name) {
   for (std::size_t at = 0; (at = kWarningCodes.find(name, at)) != kWarningCodes.npos; at += name.size())

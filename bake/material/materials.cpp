@@ -1,5 +1,7 @@
 #include "bake/material/materials.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -78,7 +80,7 @@ float metallic_at(const Scene& scene, const SceneMaterial& m, std::uint32_t tria
 // Sums of what is averaged, in double and in a fixed order.
 struct Sums {
   DVec3 base_color{0}, diffuse{0}, f0{0}, emission{0};
-  double metallic = 0, roughness = 0, f90 = 0, coverage = 0, coat = 0, coat_roughness = 0;
+  double metallic = 0, roughness = 0, roughness_squares = 0, f90 = 0, coverage = 0, coat = 0, coat_roughness = 0;
 };
 
 MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::vector<std::uint32_t>& triangles,
@@ -98,7 +100,8 @@ MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::v
     sums.emission += DVec3(p.emission);
     sums.f90 += p.f90;
     sums.coverage += p.coverage;
-    sums.roughness += std::sqrt(mean_alpha(p.alpha, p.anisotropy));
+    const double roughness = std::sqrt(mean_alpha(p.alpha, p.anisotropy));
+    sums.roughness += roughness, sums.roughness_squares += roughness * roughness;
     sums.coat += p.coat;
     sums.coat_roughness += std::sqrt(p.coat_alpha);
     sums.metallic += metallic_at(scene, m, triangles[at], b);
@@ -114,7 +117,10 @@ MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::v
   s.coat = static_cast<float>(sums.coat / kSamples);
   s.coat_alpha = static_cast<float>(std::pow(sums.coat_roughness / kSamples, 2));
   if (s.curve.metal == Metal::kNone) s.curve.schlick = s.metallic;
-  choose_image_lobe(s, static_cast<float>(sums.roughness / kSamples));
+  const double roughness = sums.roughness / kSamples;
+  s.roughness_deviation =
+      static_cast<float>(std::sqrt(std::max(sums.roughness_squares / kSamples - roughness * roughness, 0.0)));
+  choose_image_lobe(s, static_cast<float>(roughness));
   return s;
 }
 
@@ -195,6 +201,15 @@ std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
   std::vector<MaterialSummary> summaries;
   for (std::uint32_t m = 0; m < scene.materials.size(); ++m) summaries.push_back(summarize(scene, m, triangles[m]));
   return summaries;
+}
+
+std::vector<std::string> averaged_roughness(const Scene& scene, const MaterialMaps& maps) {
+  constexpr float kSeen = 0.05f;  // of polished beside satin tiles: 0.2 and 0.3
+  std::vector<std::string> names;
+  for (std::size_t m = 0; m < maps.summaries.size(); ++m)
+    if (maps.kernel[m] >= 0 && maps.summaries[m].roughness_deviation > kSeen)
+      names.push_back(fmt::format("'{}'", scene.materials[m].name));
+  return names;
 }
 
 Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& options, Context& context) {

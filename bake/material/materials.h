@@ -15,6 +15,7 @@ struct MaterialSummary {
   Vec3 base_color{1};  // linear
   Vec3 diffuse{0};     // (1 - metallic) (1 - transmission) base colour
   float metallic = 0;
+  float roughness_deviation = 0;  // of its texture, standard
   float roughness = 1;   // of the lobe that shows an image: the coat's where it reflects as much as what it covers
   float alpha = 1;       // GGX width: the square of that roughness; of an anisotropic lobe the mean √(αx αy)
   float base_alpha = 1;  // of the lobe under the coat
@@ -53,6 +54,9 @@ struct MaterialMaps {
   std::vector<BrdfKernel> kernels;
   std::vector<FresnelMap> fresnel_maps;
 };
+
+// Materials that reflect an image, and whose roughness differs over their texture, which the player does not show.
+std::vector<std::string> averaged_roughness(const Scene& scene, const MaterialMaps& maps);
 
 // Materials whose needs agree to within options.error share a kernel and a Fresnel map (share.h). Error kStopped only.
 Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& options, Context& context);

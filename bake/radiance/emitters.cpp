@@ -299,8 +299,8 @@ Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Con
     }
     std::sort(found.emitters.begin(), found.emitters.end());
     if (!chosen.empty()) ORIEL_TRY_VOID(chooser.bake_visibility(chosen, found));
-    const char* const how = lobe_width > 0 ? "lamps are blurred with its radiance maps instead of shown exactly (their "
-                                             "edges are softer, their light is the same)"
+    const char* const how = lobe_width > 0 ? "lamps are blurred with its image instead of shown exactly (their edges "
+                                             "are softer, their light is the same)"
                                            : "points, spots and suns do not show in it";
     if (left_in.total() > 0)
       omitted.push_back(
@@ -312,7 +312,7 @@ Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Con
   if (any_glossy && !accel.scene().light_groups.empty()) chooser.append_rest(first_emitter, emitters);
   if (any_glossy && !all_emission_is_plain(accel.scene()))
     omitted.emplace_back(
-        "lamps whose emission is textured stay in the radiance maps of glossy reflectors and are blurred with them");
+        "lamps whose emission is textured stay in the images of glossy reflectors and are blurred with them");
   return {};
 }
 

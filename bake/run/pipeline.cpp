@@ -297,6 +297,9 @@ class Bake {
       result_.omissions.emplace_back("kernels: left out by --only");
       materials.kernels.clear(), materials.kernel.assign(materials.kernel.size(), -1);
     }
+    if (const auto names = averaged_roughness(scene(), materials); !names.empty())
+      result_.omissions.emplace_back(
+          fmt::format("roughness textures are shown as their averages: of {}", fmt::join(names, ", ")));
     assemble_scene(scene(), std::move(materials), std::move(mesh), pack());
     for (Material& material : pack().materials)
       if (material.unlit) material.emission = Vec3(unlit_white_);

@@ -28,10 +28,12 @@ void judge_error(const BakeOptions& options, const RadiosityReport& report, cons
     }
   };
   if (c.error_low > kWorse * std::max(asked, report.stated()))
-    tell(fmt::format(
-        "the lightmap's measured error is {:.3g} % ({:.3g} to {:.3g} %), asked for was {:.3g} % and stated is "
-        "{:.3g} %: light varies more within texels than they tell; --texel makes those finer",
-        100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, 100 * asked, 100 * stated));
+    tell(
+        fmt::format("the lightmap's measured error is {:.3g} % ({:.3g} to {:.3g} %), {}stated is {:.3g} %: light "
+                    "varies more within "
+                    "texels than they tell; --texel makes those finer",
+                    100 * c.relative_error, 100 * c.error_low, 100 * c.error_high,
+                    named ? fmt::format("asked for was {:.3g} % and ", 100 * asked) : "", 100 * stated));
   if (stated <= 1.25 * asked) return;
   if (report.ended_early) {
     if (budget.limited() && (named || asked > kBestError))

@@ -282,8 +282,7 @@ TEST(Emitters, NoMoreThanTheLimitAndTheRestIsNamed) {
   room.run(*accel);
   EXPECT_EQ(room.reflectors[0].reflector.emitters.size(), kMaxReflectorEmitters);
   ASSERT_EQ(room.omitted.size(), 1u);
-  EXPECT_NE(room.omitted[0].find("9 of its lamps are blurred with its radiance maps"), std::string::npos)
-      << room.omitted[0];
+  EXPECT_NE(room.omitted[0].find("9 of its lamps are blurred with its image"), std::string::npos) << room.omitted[0];
 }
 
 TEST(Emitters, FineMeshesAndTexturesStayInTheMapsAndAreNamed) {
@@ -307,7 +306,7 @@ TEST(Emitters, FineMeshesAndTexturesStayInTheMapsAndAreNamed) {
   EXPECT_EQ(room.reflectors[0].reflector.emitters.size(), 1u);
   ASSERT_EQ(room.omitted.size(), 2u);
   EXPECT_NE(room.omitted[0].find(
-                "1 of its lamps are blurred with its radiance maps instead of shown exactly (their edges are softer, "
+                "1 of its lamps are blurred with its image instead of shown exactly (their edges are softer, "
                 "their light is the same): 1 have more than 16"),
             std::string::npos)
       << room.omitted[0];

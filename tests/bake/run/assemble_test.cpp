@@ -49,6 +49,18 @@ TEST(Assemble, WhatShinesByAPictureKeepsIt) {
   EXPECT_FLOAT_EQ(most, 1.25f);
 }
 
+// Polished and rough halves; both as rough as before their texture.
+TEST(Assemble, RoughnessThatIsAveragedIsTold) {
+  Scene scene = screen();
+  SceneMaterial& m = scene.materials[0];
+  m.roughness = 0.5f;
+  m.metallic_roughness_texture = m.emission_texture;
+  Context context;
+  EXPECT_EQ(averaged_roughness(scene, *bake_materials(scene, {}, context)), std::vector<std::string>{"'screen'"});
+  m.metallic_roughness_texture = {};
+  EXPECT_TRUE(averaged_roughness(scene, *bake_materials(scene, {}, context)).empty());
+}
+
 // A mesh has one set of coordinates. Where the base colour has others, the picture's mean is shown.
 TEST(Assemble, TheBaseColoursCoordinatesComeFirst) {
   TextureSlot base;
